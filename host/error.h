@@ -1,0 +1,33 @@
+// How failures leave the library: one exception type that carries the documented exit code.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace tessera {
+
+/// Exit codes of the command line; a library user switches on them.
+enum class ExitCode : int {
+  kDone = 0,
+  kFailure = 1,      ///< anything that has no code of its own
+  kUsage = 2,        ///< bad usage or input, a device that is not there included
+  kOverflow = 3,     ///< a capacity was exceeded under overflow=error
+  kUnsupported = 4,  ///< the device cannot run this variant; the message names the missing feature
+  kDifference = 5,   ///< compare or parity found a difference
+};
+
+/// `what()` is one line: file, place, what is wrong, what would be right.
+class Error : public std::runtime_error {
+ public:
+  Error(ExitCode code, const std::string& line) : std::runtime_error(line), code_(code) {}
+  ExitCode code() const noexcept { return code_; }
+
+ private:
+  ExitCode code_;
+};
+
+[[noreturn]] inline void failUsage(const std::string& line) { throw Error(ExitCode::kUsage, line); }
+[[noreturn]] inline void failUnsupported(const std::string& line) { throw Error(ExitCode::kUnsupported, line); }
+[[noreturn]] inline void fail(const std::string& line) { throw Error(ExitCode::kFailure, line); }
+
+}  // namespace tessera

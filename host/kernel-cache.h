@@ -1,0 +1,64 @@
+// Variant -> compiled kernel, by content. Slang comes in here and nowhere else.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "host/kernel.h"
+
+namespace tessera {
+
+/// One kernel to compile. The generated variant module is the only thing that differs between variants of a stage.
+struct KernelRequest {
+  std::string stage;            ///< for messages and CompiledKernel::stage
+  std::string source;           ///< file under slang/, e.g. "rasterizer/raster-tile.slang"
+  std::string entry;            ///< entry point
+  Route route = Route::kCpp;
+  std::string variantModule;    ///< text of variant.slang, imported by the sources as `variant`
+  std::string variantName;      ///< "axis=value axis=value", for messages
+};
+
+struct ToolInfo {
+  std::filesystem::path path;
+  std::string version;
+  std::string origin;           ///< "SLANGC", "PATH" or "tools" (the pinned one that ./dev fetched)
+};
+
+/// Content-addressed: the key holds the text of the Slang sources that the kernel imports, the variant module, flags, slangc's and the C++ compiler's
+/// versions, and the resolved CPU target. Safe when two processes fill it at once (written beside, renamed); a broken entry
+/// is rebuilt. Thread-safe.
+class KernelCache {
+ public:
+  struct Options {
+    std::filesystem::path folder;        ///< default: $TESSERA_CACHE, else $XDG_CACHE_HOME/tessera, else ~/.cache/tessera
+    std::filesystem::path slangSources;  ///< default: $TESSERA_SLANG_SOURCES, else the installed or source folder known at build time
+    bool boundsChecks = false;           ///< kCpp: compile Slang's bounds checks in (asserts)
+    std::string extraCxxFlags;           ///< kCpp: e.g. the sanitizers of this build; default from the build
+  };
+  KernelCache();
+  explicit KernelCache(Options options);
+  ~KernelCache();
+  KernelCache(const KernelCache&) = delete;
+
+  /// Compiles if it is not there. Throws kFailure with Slang's or the compiler's first message and the variant's name.
+  CompiledKernel get(const KernelRequest& request);
+  /// Compiles many on all cores; `progress(done, total)` may be empty.
+  std::vector<CompiledKernel> getAll(const std::vector<KernelRequest>& requests, const std::function<void(std::size_t, std::size_t)>& progress = {});
+
+  const ToolInfo& slangc() const;          ///< the compiler in use: one whose SPIR-V passes checkSpirv()
+  std::string cxx() const;                 ///< "g++ 12.2.0, -O3 -march=native ... (znver4)"
+  std::filesystem::path folder() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// Static check of a SPIR-V module: one line a violation (none is good). Every OpFAdd, OpFSub, OpFMul, OpFDiv carries
+/// NoContraction; no OpDot, matrix product, FMix or Fma.
+std::vector<std::string> checkSpirv(const std::filesystem::path& module);
+
+}  // namespace tessera

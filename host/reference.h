@@ -1,0 +1,44 @@
+// The oracle: the contract of rasterizer.h in plain loops and 128-bit integers, one triangle and one pixel at a time.
+// It shares no code with slang/ and includes nothing of the pipeline; it is written to be read beside the contract.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "host/framebuffer.h"
+#include "host/scene.h"
+
+namespace tessera::reference {
+
+/// The image-defining axes. Further values join here as the axes of variant.h gain them.
+enum class Cull { kNone, kBack, kFront };
+struct Image { Cull cull = Cull::kNone; };
+
+/// One oriented, snapped piece, as it enters coverage. Positions in 1/256 pixel.
+struct Piece {
+  std::uint32_t id;
+  std::int32_t x[3], y[3];
+  float z[3];
+};
+
+struct Counts {
+  std::uint64_t submitted = 0, badIndex = 0, nonFinite = 0, behind = 0 /* pieces with w <= 0 or 1/w not finite */, zeroArea = 0 /* pieces */,
+      facing = 0 /* pieces */, clipped = 0 /* triangles that crossed a plane */, covered = 0 /* samples, each hit counted */;
+};
+
+struct Result {
+  Framebuffer image;                     ///< depth and ids, in the contract's float32 order; and hits (all vectors are filled)
+  Counts counts;
+  double depthMaxAbs = 0;                ///< largest |float32 depth - exact depth| over the visible pixels, exact in 128-bit rationals/floats of the snapped piece
+  double depthMaxUlp = 0;                ///< the same in units of the last place of the exact value
+};
+
+/// float32 clip positions of a scene by the contract's transform, or its given ones.
+std::vector<glm::vec4> transform(const Scene& scene);
+/// Pieces of all triangles, in id order, by the contract's clip, projection, snap and orientation.
+std::vector<Piece> pieces(const Scene& scene, const Image& image, Counts* counts = nullptr);
+/// `measureDepth` also fills depthMaxAbs and depthMaxUlp (slower).
+Result render(const Scene& scene, const Image& image = {}, bool measureDepth = false);
+
+}  // namespace tessera::reference

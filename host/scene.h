@@ -1,0 +1,35 @@
+// What is rasterised: one triangle soup, in the order that gives triangles their ids.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <string>
+#include <vector>
+
+namespace tessera {
+
+using Triangle = std::array<std::uint32_t, 3>;   ///< vertex indices; may be out of range, the pipeline counts those
+using Matrix = std::array<float, 16>;            ///< row-major
+
+inline constexpr Matrix kIdentity{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+inline constexpr std::uint32_t kMaxExtent = 32768;  ///< largest width and height, pixels
+
+/// Triangles, positions and the matrix that takes them to clip space.
+/// Triangle i has id i: faces in the file's order, polygons fanned, meshes in the scene's order.
+/// Exactly one of `positions` and `clip` is filled (both are empty in an empty scene).
+struct Scene {
+  std::string name;
+  std::uint32_t width = 1024;                ///< pixels, 1 to kMaxExtent
+  std::uint32_t height = 1024;               ///< pixels, 1 to kMaxExtent
+  std::vector<glm::vec3> positions;          ///< object space
+  std::vector<glm::vec4> clip;               ///< clip space, given as they are (replay files, tests): no transform runs
+  std::vector<glm::vec3> normals;            ///< empty, or unit length, one a vertex, object space
+  std::vector<Triangle> triangles;
+  Matrix clipFromObject = kIdentity;
+
+  std::size_t vertexCount() const { return positions.empty() ? clip.size() : positions.size(); }
+};
+
+}  // namespace tessera

@@ -1,0 +1,64 @@
+// The axes of variation: one list drives the command line, the kernels, the tests, the sweeps and the docs.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tessera {
+
+enum class AxisKind {
+  kImage,           ///< changes what is right; the oracle takes it too
+  kImplementation,  ///< may change no bit
+  kApproximate,     ///< the error is measured and shown with every result
+};
+const char* kindName(AxisKind kind);  ///< "image", "implementation", "approximate"
+
+struct AxisValue {
+  std::string name;
+  std::string meaning;                   ///< one line
+  std::string slang;                     ///< what the generated variant module says for it; empty: a host path
+  AxisKind kind = AxisKind::kImplementation;
+};
+
+struct Axis {
+  std::string name;
+  std::string meaning;                   ///< one line
+  std::string source;                    ///< paper or specification
+  std::vector<std::string> stages;       ///< kernels that read it, by stage name; empty: the host reads it
+  std::vector<AxisValue> values;         ///< empty: an integer from `least` to `most`
+  long least = 0, most = 0;
+  std::string unset;                     ///< what the plan chooses when it is not set, in words
+};
+
+/// All axes, in pipeline order.
+const std::vector<Axis>& axes();
+/// Throws kUsage, naming the axes there are.
+const Axis& axis(std::string_view name);
+
+/// Chosen values. An axis that is not set is the plan's choice; a set one is honoured or refused.
+class Variant {
+ public:
+  Variant() = default;
+  Variant(std::initializer_list<std::pair<std::string_view, std::string_view>> settings);
+  /// Throws kUsage for an unknown axis or value, naming those there are.
+  void set(std::string_view axis, std::string_view value);
+  /// "axis=value".
+  void set(std::string_view assignment);
+  bool has(std::string_view axis) const;
+  /// The value, or `otherwise` where it is not set.
+  std::string get(std::string_view axis, std::string_view otherwise = "") const;
+  const std::map<std::string, std::string>& values() const { return values_; }
+  std::string text() const;   ///< "axis=value axis=value" in axis order; "" when nothing is set
+
+ private:
+  std::map<std::string, std::string> values_;
+};
+
+/// Text of variant.slang for one stage: only the axes that the stage reads, so that its key holds no other.
+/// `resolved` has a value for each of them.
+std::string variantModule(std::string_view stage, const Variant& resolved);
+
+}  // namespace tessera

@@ -1,0 +1,23 @@
+// Vulkan 1.2 or later, through Vulkan-Hpp RAII.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "host/device.h"
+
+namespace tessera {
+
+struct VulkanAdapter { unsigned index; std::string name, driver, apiVersion, whyNot /* empty when usable */; };
+std::vector<VulkanAdapter> listVulkanAdapters();   ///< never throws for a missing loader or driver: the list is empty
+
+struct VulkanOptions {
+  std::string select;                                    ///< "" first, "N" by index, else part of the name; kUsage if there is none
+  bool validation = false;                               ///< load VK_LAYER_KHRONOS_validation; kUsage if it is not installed
+  std::function<void(const std::string&)> onMessage;     ///< validation messages (warnings and errors)
+};
+std::unique_ptr<Device> makeVulkanDevice(const VulkanOptions& options = {});
+
+}  // namespace tessera
