@@ -14,9 +14,10 @@ struct VulkanAdapter { unsigned index; std::string name, driver, apiVersion, why
 std::vector<VulkanAdapter> listVulkanAdapters();   ///< never throws for a missing loader or driver: the list is empty
 
 struct VulkanOptions {
-  std::string select;                                    ///< "" first, "N" by index, else part of the name; kUsage if there is none
+  std::string select;                                    ///< "" a GPU before a software driver, "N" by index, else part of the name; kUsage if there is none
   bool validation = false;                               ///< load VK_LAYER_KHRONOS_validation; kUsage if it is not installed
-  std::function<void(const std::string&)> onMessage;     ///< validation messages (warnings and errors)
+  std::function<void(const std::string&)> onMessage;     ///< validation messages (warnings and errors); empty: standard error
+  bool staged = false;                                   ///< copy through a staging buffer even where memory is mapped (tests)
 };
 std::unique_ptr<Device> makeVulkanDevice(const VulkanOptions& options = {});
 

@@ -1,0 +1,160 @@
+#include "host/vulkan/instance.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstdio>
+#include <cstring>
+
+namespace tessera::vulkan {
+namespace {
+
+constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
+
+VKAPI_ATTR VkBool32 VKAPI_CALL forwardMessage(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
+                                              const VkDebugUtilsMessengerCallbackDataEXT* data, void* user) {
+  (*static_cast<std::function<void(const std::string&)>*>(user))(data->pMessage);
+  return VK_FALSE;
+}
+
+vk::DebugUtilsMessengerCreateInfoEXT messengerInfo(void* user) {
+  using Severity = vk::DebugUtilsMessageSeverityFlagBitsEXT;
+  using Type = vk::DebugUtilsMessageTypeFlagBitsEXT;
+  return {{}, Severity::eWarning | Severity::eError, Type::eValidation | Type::ePerformance, forwardMessage, user};
+}
+
+vk::raii::Context makeContext() try {
+  return vk::raii::Context();
+} catch (const std::runtime_error&) {
+  failUsage("no Vulkan loader (libvulkan.so.1) on this machine; Debian: libvulkan1 mesa-vulkan-drivers");
+}
+
+vk::raii::Instance makeInstance(const vk::raii::Context& context, bool validation, void* user) try {
+  const vk::ApplicationInfo application("tessera", 1, "tessera", 1, kApiVersion);
+  vk::InstanceCreateInfo info({}, &application);
+  const auto messenger = messengerInfo(user);
+  const std::array extensions{VK_EXT_DEBUG_UTILS_EXTENSION_NAME};
+  if (validation) {
+    const auto layers = context.enumerateInstanceLayerProperties();
+    const auto isOurs = [](const auto& layer) { return std::strcmp(layer.layerName, kValidationLayer) == 0; };
+    if (std::none_of(layers.begin(), layers.end(), isOurs))
+      failUsage(fmt::format("{} is not installed (Debian: vulkan-validationlayers); run without validation", kValidationLayer));
+    info.setPEnabledLayerNames(kValidationLayer).setPEnabledExtensionNames(extensions).setPNext(&messenger);
+  }
+  return {context, info};
+} catch (const vk::IncompatibleDriverError&) {
+  failUsage("no Vulkan driver on this machine; Debian: mesa-vulkan-drivers");
+} catch (const vk::SystemError& error) {
+  fail(fmt::format("no Vulkan instance: {}", error.what()));
+}
+
+int rank(vk::PhysicalDeviceType type) {
+  switch (type) {
+    case vk::PhysicalDeviceType::eDiscreteGpu: return 0;
+    case vk::PhysicalDeviceType::eIntegratedGpu: return 1;
+    case vk::PhysicalDeviceType::eVirtualGpu: return 2;
+    default: return 3;
+  }
+}
+
+Adapter describe(const vk::raii::PhysicalDevice& physical, vk::QueueFlags queueFlags) {
+  Adapter adapter{physical, physical.getProperties(), {}, {}, {}, 0, 0, ""};
+  if (adapter.properties.apiVersion < kApiVersion) {
+    adapter.whyNot = fmt::format("it has Vulkan {}, 1.2 is needed", adapter.apiVersionText());
+    return adapter;
+  }
+  adapter.driver = physical.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDriverProperties>()
+                       .get<vk::PhysicalDeviceDriverProperties>();
+  const auto features = physical.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan12Features>();
+  adapter.features = features.get<vk::PhysicalDeviceFeatures2>().features;
+  adapter.features12 = features.get<vk::PhysicalDeviceVulkan12Features>();
+  adapter.features12.pNext = nullptr;
+  const auto families = physical.getQueueFamilyProperties();
+  const auto family = std::find_if(families.begin(), families.end(), [&](const vk::QueueFamilyProperties& f) {
+    return (f.queueFlags & queueFlags) == queueFlags && f.timestampValidBits > 0;
+  });
+  if (family == families.end()) {
+    adapter.whyNot = fmt::format("it has no queue with {} and timestamps", vk::to_string(queueFlags));
+    return adapter;
+  }
+  adapter.queueFamily = static_cast<std::uint32_t>(family - families.begin());
+  adapter.timestampBits = family->timestampValidBits;
+  return adapter;
+}
+
+std::string lower(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+  return text;
+}
+
+}  // namespace
+
+std::string Adapter::driverText() const {
+  const std::string text = fmt::format("{} {}", driver.driverName.data(), driver.driverInfo.data());
+  return text == " " ? fmt::format("driver {:#x}", properties.driverVersion) : text;
+}
+
+std::string Adapter::apiVersionText() const {
+  const std::uint32_t version = properties.apiVersion;
+  return fmt::format("{}.{}.{}", VK_API_VERSION_MAJOR(version), VK_API_VERSION_MINOR(version), VK_API_VERSION_PATCH(version));
+}
+
+bool Adapter::isSoftware() const {
+  return driver.driverID == vk::DriverId::eMesaLlvmpipe || driver.driverID == vk::DriverId::eGoogleSwiftshader;
+}
+
+Instance::Instance(bool validation, std::function<void(const std::string&)> onMessage)
+    : context_(makeContext()),
+      onMessage_(std::make_unique<std::function<void(const std::string&)>>(
+          onMessage ? std::move(onMessage) : [](const std::string& message) { fmt::print(stderr, "{}\n", message); })),
+      instance_(makeInstance(context_, validation, onMessage_.get())) {
+  if (validation) messenger_ = {instance_, messengerInfo(onMessage_.get())};
+}
+
+std::vector<Adapter> Instance::adapters(vk::QueueFlags queueFlags) const try {
+  std::vector<Adapter> found;
+  for (const auto& physical : instance_.enumeratePhysicalDevices()) found.push_back(describe(physical, queueFlags));
+  return found;
+} catch (const vk::SystemError&) {
+  return {};  // what the loader says when no driver loads
+}
+
+Adapter selectAdapter(std::vector<Adapter> adapters, const std::string& select) {
+  if (adapters.empty()) failUsage("no Vulkan adapter on this machine; Debian: mesa-vulkan-drivers has a software one");
+  std::string known;
+  for (std::size_t i = 0; i < adapters.size(); ++i) known += fmt::format("{}{} {}", i ? ", " : "", i, adapters[i].name());
+
+  auto chosen = adapters.end();
+  if (select.empty()) {
+    chosen = std::min_element(adapters.begin(), adapters.end(), [](const Adapter& a, const Adapter& b) {
+      return std::pair(!a.whyNot.empty(), rank(a.properties.deviceType)) < std::pair(!b.whyNot.empty(), rank(b.properties.deviceType));
+    });
+  } else if (std::all_of(select.begin(), select.end(), [](unsigned char c) { return std::isdigit(c); })) {
+    const unsigned long index = select.size() < 9 ? std::stoul(select) : adapters.size();
+    if (index < adapters.size()) chosen = adapters.begin() + static_cast<std::ptrdiff_t>(index);
+  } else {
+    chosen = std::find_if(adapters.begin(), adapters.end(),
+                          [&](const Adapter& a) { return lower(a.name()).find(lower(select)) != std::string::npos; });
+  }
+  if (chosen == adapters.end()) failUsage(fmt::format("vulkan:{}: no such device; there are: {}", select, known));
+  if (!chosen->whyNot.empty()) failUnsupported(fmt::format("vulkan: {} cannot be used: {}", chosen->name(), chosen->whyNot));
+  return std::move(*chosen);
+}
+
+}  // namespace tessera::vulkan
+
+namespace tessera {
+
+std::vector<VulkanAdapter> listVulkanAdapters() try {
+  std::vector<VulkanAdapter> list;
+  const vulkan::Instance instance(false, {});
+  for (const auto& adapter : instance.adapters())
+    list.push_back({static_cast<unsigned>(list.size()), adapter.name(), adapter.driverText(), adapter.apiVersionText(), adapter.whyNot});
+  return list;
+} catch (const Error&) {
+  return {};
+}
+
+}  // namespace tessera
