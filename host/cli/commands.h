@@ -1,0 +1,25 @@
+// The commands of the command line, one a file. Results go to stdout, messages and progress to stderr.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+#include "host/error.h"
+
+namespace tessera::cli {
+
+/// A sub-command and what runs it once it has been parsed. Failures leave as Error.
+struct Command {
+  CLI::App* app;
+  std::function<ExitCode()> run;
+};
+
+Command addRender(CLI::App& app);
+Command addParity(CLI::App& app);
+Command addCompare(CLI::App& app);
+Command addPlan(CLI::App& app);
+Command addDevices(CLI::App& app);
+Command addVariants(CLI::App& app);
+Command addKernels(CLI::App& app);
+
+}  // namespace tessera::cli

@@ -1,0 +1,52 @@
+// What several commands share: their options, and how text becomes a variant, a scene, a device.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "host/device.h"
+#include "host/kernel.h"
+#include "host/scene.h"
+#include "host/variant.h"
+
+namespace tessera::cli {
+
+/// Options as they were typed. Each command adds those that it takes.
+struct Options {
+  std::string input;
+  std::string size;                     ///< "WxH"; empty: the scene's
+  std::vector<std::string> settings;    ///< "axis=value"
+  std::vector<std::string> devices;     ///< "cpu", "vulkan", "vulkan:N", "vulkan:NAME"
+  unsigned threads = 0;                 ///< of the CPU device; 0: all cores
+};
+
+void addInput(CLI::App& app, Options& options);
+void addSettings(CLI::App& app, Options& options);
+void addThreads(CLI::App& app, Options& options);
+/// `many`: the option may be repeated.
+void addDevice(CLI::App& app, Options& options, bool many);
+
+Variant variantOf(const Options& options);
+/// Loads the input; a size that was given replaces the scene's, and its camera follows.
+Scene sceneOf(const Options& options);
+std::unique_ptr<Device> openDevice(const std::string& name, unsigned threads);
+/// The one device of a command that takes one: the CPU unless another was named.
+std::unique_ptr<Device> openDevice(const Options& options);
+/// "cpu" and "vulkan:N" for each usable Vulkan device here.
+std::vector<std::string> presentDevices();
+/// How kernels reach this device under this variant.
+Route routeOf(const DeviceInfo& device, const Variant& variant);
+
+/// For an option's help: one line an axis, one line a generator.
+std::string axesHelp();
+std::string inputHelp();
+
+/// Refuses a text file that could not be written, or that is the input itself; called before any work. "-" is stdout.
+void checkTextPath(const std::filesystem::path& path, const std::string& input);
+/// Written beside the name and renamed; "-" is stdout.
+void writeText(const std::filesystem::path& path, const std::string& text);
+
+}  // namespace tessera::cli

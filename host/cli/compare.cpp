@@ -1,0 +1,44 @@
+// tessera compare: two .exr files, pixel by pixel, bit by bit.
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+
+#include "host/cli/commands.h"
+#include "host/cli/difference.h"
+
+namespace tessera::cli {
+namespace {
+
+struct CompareOptions {
+  std::string a, b, output;
+};
+
+ExitCode runCompare(const CompareOptions& options) {
+  if (!options.output.empty()) checkImagePath(options.output);
+  const Framebuffer a = readImage(options.a);
+  const Framebuffer b = readImage(options.b);
+  const Difference difference = compare(a, b);
+  if (!options.output.empty()) {
+    Framebuffer picture{.width = a.width, .height = a.height, .depth = {}, .ids = {}, .hits = {}, .colour = differencePicture(a, b)};
+    writeImage(options.output, picture);
+  }
+  fmt::print("{}", describe(difference));
+  if (difference.equal()) return ExitCode::kDone;
+  fmt::print("{}\n", firstPixel(difference, {options.a, a}, {options.b, b}));
+  return ExitCode::kDifference;
+}
+
+}  // namespace
+
+Command addCompare(CLI::App& app) {
+  auto options = std::make_shared<CompareOptions>();
+  auto* const command = app.add_subcommand("compare", "compare two .exr images bit by bit; exit code 5 when they differ");
+  command->add_option("A", options->a, "an .exr that render wrote")->required();
+  command->add_option("B", options->b, "another of the same size")->required();
+  command->add_option("-o,--output", options->output, "a picture of where they differ")->type_name("FILE.png");
+  command->footer("Example:\n  tessera compare cpu.exr gpu.exr -o difference.png");
+  return {command, [options] { return runCompare(*options); }};
+}
+
+}  // namespace tessera::cli

@@ -1,0 +1,89 @@
+// tessera devices: what can run here, what it can do, and whether its arithmetic gives the contract's bits.
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+
+#include "host/cli/commands.h"
+#include "host/cli/common.h"
+#include "host/cli/probe-text.h"
+#include "host/cli/progress.h"
+#include "host/cli/table.h"
+#include "host/kernel-cache.h"
+#include "host/vulkan/vulkan-device.h"
+
+namespace tessera::cli {
+namespace {
+
+using Rows = std::vector<std::vector<std::string>>;
+
+/// One probe a route. A device whose probe cannot run at all is still listed.
+std::string probeCell(Device& device, KernelCache* kernels, Route route, std::string& notes, const std::string& name) {
+  if (!kernels) return "not run";
+  try {
+    const Probe probe = probeDevice(device, *kernels, route);
+    for (const auto& result : probe.results)
+      if (!result.passed || !result.required)
+        notes += fmt::format("{} ({}): {} {}{}\n", name, routeName(route), result.name,
+                             result.passed ? "" : result.required ? "FAILED: " : "differs: ", result.detail);
+    return probe.passed() ? "passed" : "FAILED";
+  } catch (const Error& error) {
+    notes += fmt::format("{} ({}): the probe could not run: {}\n", name, routeName(route), error.what());
+    return "could not run";
+  }
+}
+
+std::string yesNo(bool value) { return value ? "yes" : "no"; }
+
+std::string limitText(std::uint32_t limit) { return limit == ~0u ? "any" : grouped(limit); }
+
+void addDeviceRow(Rows& rows, const std::string& name, KernelCache* kernels, std::string& notes) {
+  const auto device = openDevice(name, 0);
+  const DeviceInfo& info = device->info();
+  const bool cpu = info.api == "cpu";
+  const std::string first = probeCell(*device, kernels, cpu ? Route::kCpp : Route::kSpirv, notes, name);
+  const std::string probe = cpu ? first : fmt::format("spirv {}, glsl {}", first, probeCell(*device, kernels, Route::kGlsl, notes, name));
+  rows.push_back({name, info.name, info.driver, yesNo(info.int64), yesNo(info.atomicMin64), byteSize(info.maxBufferBytes),
+                  limitText(info.maxLoopIterations), limitText(info.maxGroupsPerDimension), info.timeClock, probe});
+  if (info.correctnessOnly) notes += fmt::format("{}: a software driver; its times say nothing about a GPU\n", name);
+}
+
+ExitCode runDevices() {
+  std::unique_ptr<KernelCache> kernels;
+  std::string compilers;
+  try {
+    kernels = std::make_unique<KernelCache>();
+    const ToolInfo& slangc = kernels->slangc();
+    compilers = fmt::format("slangc   {} {} (from {})\nC++      {}\nkernels  {}\n", slangc.version, slangc.path.string(), slangc.origin,
+                            kernels->cxx(), kernels->folder().string());
+  } catch (const Error& error) {
+    kernels.reset();
+    compilers = fmt::format("no kernel can be compiled here: {}\n", error.what());
+  }
+  Rows rows{{"device", "name", "driver", "int64", "atomic64", "buffer", "loop", "groups", "clock", "probe"}};
+  std::string notes;
+  const auto names = presentDevices();
+  {
+    Progress progress("devices", names.size());
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      progress.at(i, names[i]);
+      addDeviceRow(rows, names[i], kernels.get(), notes);
+    }
+  }
+  for (const auto& adapter : listVulkanAdapters())
+    if (!adapter.whyNot.empty()) notes += fmt::format("vulkan:{} {} ({}): cannot be used: {}\n", adapter.index, adapter.name, adapter.driver, adapter.whyNot);
+  if (rows.size() == 2 && notes.find("vulkan:") == std::string::npos) notes += "no Vulkan device was found\n";
+  fmt::print("{}\n{}{}{}", table(rows), notes, notes.empty() ? "" : "\n", compilers);
+  return ExitCode::kDone;
+}
+
+}  // namespace
+
+Command addDevices(CLI::App& app) {
+  auto* const command = app.add_subcommand("devices", "list the devices here, their limits and the verdict of the arithmetic probe");
+  command->footer("buffer: largest storage buffer; loop: iterations that one invocation can run; groups: workgroups in a dimension.\n"
+                  "Parity of images is claimed where the probe passes.");
+  return {command, runDevices};
+}
+
+}  // namespace tessera::cli

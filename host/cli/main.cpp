@@ -1,0 +1,63 @@
+// tessera: the command line. Every failure is one line on stderr and an exit code of error.h.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <new>
+
+#include "host/build-info.h"
+#include "host/cli/commands.h"
+
+namespace {
+
+using namespace tessera;
+
+ExitCode complain(ExitCode code, std::string line) {
+  std::replace(line.begin(), line.end(), '\n', ' ');
+  fmt::print(stderr, "tessera: {}\n", line);
+  return code;
+}
+
+ExitCode runCommand(int argc, char** argv) {
+  CLI::App app{"Tessera rasterises triangles in compute shaders, with the same bits on every device."};
+  app.name("tessera");
+  app.set_version_flag("--version", fmt::format("tessera {} ({}, {})", TESSERA_VERSION, TESSERA_GIT, TESSERA_BUILD_TYPE));
+  app.require_subcommand(1);
+  app.footer(
+      "Examples:\n"
+      "  tessera render bunny.obj -o bunny.png --set shade=smooth\n"
+      "  tessera render 'generate:icosphere?level=7' --device vulkan --repeat 20 --json -\n"
+      "  tessera parity bunny.obj\n"
+      "'tessera COMMAND --help' says more. Results go to stdout, messages to stderr.\n"
+      "Exit codes: 0 done; 2 bad usage or input; 3 overflow under overflow=error; 4 the device cannot run\n"
+      "this variant; 5 compare or parity found a difference; 1 anything else.");
+  const std::array commands{cli::addRender(app),  cli::addParity(app),   cli::addCompare(app), cli::addPlan(app),
+                            cli::addDevices(app), cli::addVariants(app), cli::addKernels(app)};
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error), ExitCode::kDone;   // --help, --version
+    return complain(ExitCode::kUsage, fmt::format("{}; 'tessera --help' shows the usage", error.what()));
+  }
+  for (const auto& command : commands)
+    if (command.app->parsed()) return command.run();
+  return ExitCode::kDone;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  ExitCode code = ExitCode::kDone;
+  try {
+    code = runCommand(argc, argv);
+    if (std::fflush(stdout) != 0 || std::ferror(stdout)) code = complain(ExitCode::kFailure, "stdout: the output could not be written");
+  } catch (const Error& error) {
+    code = complain(error.code(), error.what());
+  } catch (const std::bad_alloc&) {
+    code = complain(ExitCode::kFailure, "out of memory: a smaller --size or scene would fit");
+  } catch (const std::exception& error) {
+    code = complain(ExitCode::kFailure, error.what());
+  }
+  return static_cast<int>(code);
+}

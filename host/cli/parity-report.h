@@ -1,0 +1,39 @@
+// What parity found, device by device, and how it says so.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "host/probe.h"
+#include "host/row.h"
+
+namespace tessera::cli {
+
+/// One device by one route.
+struct Attempt {
+  std::string device, route;   ///< as --device names it; cpp, spirv or glsl
+  Variant variant;
+
+  std::string name() const { return device + " " + route; }
+};
+
+struct Outcome {
+  enum Verdict { kEqual, kNotClaimed, kDifferent, kRefused };
+
+  Attempt attempt;
+  Run run;                     ///< its difference is from the oracle; none when the device could not run
+  Probe probe;                 ///< of the device's arithmetic; parity is claimed only where it passed
+  std::uint64_t covered = 0;   ///< pixels
+  std::string note;            ///< one line on a difference or a refusal; "" when equal
+
+  Verdict verdict() const {
+    if (!run.difference) return kRefused;
+    if (!run.difference->equal()) return kDifferent;
+    return probe.passed() ? kEqual : kNotClaimed;
+  }
+};
+
+/// A table of mismatches, a table of times, notes, and the verdict over all as the last line.
+std::string parityReport(const Scene& scene, const std::vector<Outcome>& outcomes);
+
+}  // namespace tessera::cli

@@ -1,0 +1,15 @@
+#include "host/cli/probe-text.h"
+
+namespace tessera::cli {
+
+std::string routeName(Route route) {
+  return route == Route::kCpp ? "cpp" : route == Route::kSpirv ? "spirv" : "glsl";
+}
+
+std::string firstFailure(const Probe& probe) {
+  for (const auto& result : probe.results)
+    if (result.required && !result.passed) return result.name + ": " + result.detail;
+  return "";
+}
+
+}  // namespace tessera::cli

@@ -1,0 +1,14 @@
+// The arithmetic probe's verdict, in words.
+#pragma once
+
+#include <string>
+
+#include "host/kernel.h"
+#include "host/probe.h"
+
+namespace tessera::cli {
+
+std::string routeName(Route route);                   ///< "cpp", "spirv" or "glsl"
+std::string firstFailure(const Probe& probe);         ///< "divide: 1/3 gives ..."; "" when it passed
+
+}  // namespace tessera::cli

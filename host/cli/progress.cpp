@@ -1,0 +1,62 @@
+#include "host/cli/progress.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+
+namespace tessera::cli {
+namespace {
+
+constexpr std::chrono::milliseconds kTerminalInterval{200};
+constexpr std::chrono::seconds kLogInterval{10};
+
+}  // namespace
+
+Progress::Progress(std::string label, std::size_t total)
+    : label_(std::move(label)), terminal_(isatty(STDERR_FILENO) == 1), total_(total),
+      watcher_([this](std::stop_token stop) { watch(stop); }) {}
+
+Progress::~Progress() {
+  watcher_.request_stop();
+  watcher_.join();
+  if (drawn_ && terminal_) fmt::print(stderr, "\r\033[K");
+}
+
+void Progress::at(std::size_t done, const std::string& what) {
+  const std::lock_guard lock(mutex_);
+  done_ = done;
+  what_ = what;
+}
+
+void Progress::of(std::size_t done, std::size_t total) {
+  const std::lock_guard lock(mutex_);
+  done_ = done;
+  total_ = total;
+}
+
+void Progress::watch(std::stop_token stop) {
+  std::unique_lock lock(mutex_);
+  while (!wake_.wait_until(lock, stop, next_, [] { return false; }) && !stop.stop_requested()) {
+    draw();
+    next_ = Clock::now() + (terminal_ ? Clock::duration(kTerminalInterval) : Clock::duration(kLogInterval));
+  }
+}
+
+void Progress::draw() {
+  const double seconds = std::chrono::duration<double>(Clock::now() - start_).count();
+  std::string line = label_;
+  if (total_ != 0) line += fmt::format(" {}/{}", done_, total_);
+  if (!what_.empty()) line += fmt::format(" ({})", what_);
+  line += fmt::format(", {:.0f} s", seconds);
+  if (done_ != 0 && done_ < total_) {
+    const double left = seconds / static_cast<double>(done_) * static_cast<double>(total_ - done_);
+    line += fmt::format(", about {:.0f} s left", left);
+  }
+  line = terminal_ ? "\r\033[K" + line : line + '\n';
+  std::fputs(line.c_str(), stderr);
+  std::fflush(stderr);
+  drawn_ = true;
+}
+
+}  // namespace tessera::cli

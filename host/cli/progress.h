@@ -1,0 +1,41 @@
+// Progress on stderr with the time left, for work that takes longer than two seconds.
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <cstddef>
+#include <mutex>
+#include <string>
+#include <thread>
+
+namespace tessera::cli {
+
+/// Silent for two seconds; then drawn in place on a terminal, and as a line now and then elsewhere. Thread-safe.
+class Progress {
+ public:
+  /// `total` steps; 0: not known, only the time that has passed is shown.
+  Progress(std::string label, std::size_t total);
+  ~Progress();
+  Progress(const Progress&) = delete;
+
+  void at(std::size_t done, const std::string& what = "");   ///< `what` is being done now
+  void of(std::size_t done, std::size_t total);              ///< for work whose total becomes known later
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  void watch(std::stop_token stop);
+  void draw();
+
+  const std::string label_;
+  const bool terminal_;
+  const Clock::time_point start_ = Clock::now();
+  Clock::time_point next_ = start_ + std::chrono::seconds(2);
+  std::mutex mutex_;
+  std::condition_variable_any wake_;
+  std::string what_;
+  std::size_t done_ = 0, total_ = 0;
+  bool drawn_ = false;
+  std::jthread watcher_;   ///< last, so that it ends before what it reads is gone
+};
+
+}  // namespace tessera::cli
