@@ -12,7 +12,8 @@ namespace tessera {
 
 /// A mesh that OpenMesh reads (.obj .off .ply .stl), `generate:NAME?key=value&...`, a scene (.toml) or a replay file (.replay).
 /// A lone mesh gets the camera of frameCamera(). Throws kUsage with one line: file, place, what is wrong, what would be right.
-Scene loadInput(const std::string& input);
+/// `width` and `height` replace the scene's raster size (0: its own, 1024 for a lone mesh) and shape frameCamera().
+Scene loadInput(const std::string& input, std::uint32_t width = 0, std::uint32_t height = 0);
 
 /// Positions, triangles in the file's order (polygons fanned from their first corner), normals if the file has them, else
 /// computed (area-weighted vertex normals). Every face is kept: OpenMesh's half-edge mesh is not used for reading.
