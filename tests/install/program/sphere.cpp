@@ -1,0 +1,19 @@
+// Renders a generated mesh on the CPU, through the installed library alone.
+#include <cstdio>
+
+#include "datasets/input.h"
+#include "host/cpu/cpu-device.h"
+#include "host/kernel-cache.h"
+#include "host/rasterizer.h"
+
+int main() {
+  tessera::Scene scene = tessera::loadInput("generate:icosphere?level=3");
+  scene.width = scene.height = 256;
+  auto device = tessera::makeCpuDevice();
+  tessera::KernelCache kernels({.folder = {}, .slangSources = SLANG_SOURCES, .boundsChecks = false, .extraCxxFlags = {}});
+  const tessera::Frame frame = tessera::Rasterizer(*device, kernels).render(scene);
+
+  std::size_t covered = 0;
+  for (const std::uint32_t id : frame.image.ids) covered += id != tessera::kNoTriangle;
+  std::printf("%zu triangles cover %zu of %zu pixels\n", scene.triangles.size(), covered, frame.image.pixels());
+}
