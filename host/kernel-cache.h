@@ -36,8 +36,9 @@ class KernelCache {
     std::filesystem::path folder;        ///< default: $TESSERA_CACHE, else $XDG_CACHE_HOME/tessera, else ~/.cache/tessera
     std::filesystem::path slangSources;  ///< default: $TESSERA_SLANG_SOURCES, else the installed or source folder known at build time
     bool boundsChecks = false;           ///< kCpp: compile Slang's bounds checks in (asserts)
-    std::string extraCxxFlags;           ///< kCpp: e.g. the sanitizers of this build; default from the build
+    std::string extraCxxFlags;           ///< kCpp: separated by spaces, after those that the build gave (its sanitizers)
   };
+  struct Statistics { std::size_t hits = 0, compiled = 0, rebuilt = 0; };  ///< rebuilt: broken entries, among the compiled
   KernelCache();
   explicit KernelCache(Options options);
   ~KernelCache();
@@ -51,6 +52,7 @@ class KernelCache {
   const ToolInfo& slangc() const;          ///< the compiler in use: one whose SPIR-V passes checkSpirv()
   std::string cxx() const;                 ///< "g++ 12.2.0, -O3 -march=native ... (znver4)"
   std::filesystem::path folder() const;
+  Statistics statistics() const;
 
  private:
   struct State;

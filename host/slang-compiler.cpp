@@ -1,0 +1,156 @@
+#include "host/slang-compiler.h"
+
+#include <fmt/format.h>
+#include <fstream>
+#include <sstream>
+
+#include "host/error.h"
+#include "host/reflection.h"
+#include "host/slang-sources.h"
+#include "host/spirv.h"
+#include "host/subprocess.h"
+
+namespace tessera {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Slang's prelude asks these macros at every index into a buffer or an array. Throwing crosses the entry point to the dispatch.
+constexpr const char* kBoundsChecks = R"(#include <stdexcept>
+#include <string>
+[[noreturn]] static void tesseraOutOfBounds(size_t index, size_t count)
+{
+    throw std::out_of_range("index " + std::to_string(index) + " of " + std::to_string(count));
+}
+#define SLANG_BOUND_CHECK(index, count) if (!(index < count)) tesseraOutOfBounds(index, count);
+#define SLANG_BOUND_CHECK_FIXED_ARRAY(index, count) if (!(index < count)) tesseraOutOfBounds(index, count);
+)";
+
+std::string trimmed(const std::string& text) {
+  const std::size_t first = text.find_first_not_of(" \t|^~'`-");
+  return first == std::string::npos ? "" : text.substr(first);
+}
+
+/// The first error in a compiler's output as one line. slangc writes "error[E30015]: title", then " --> file:line:column", then
+/// the source with "^^^ message" under it; the others, and older slangcs, write all on one line.
+std::string firstError(const std::string& output) {
+  std::istringstream lines(output);
+  std::string line, title, place;
+  while (std::getline(lines, line)) {
+    if (title.empty()) {
+      const bool isError = line.find("error") != std::string::npos || line.find("ERROR") != std::string::npos;
+      if (!isError) continue;
+      if (line.rfind("error[", 0) != 0 && line.rfind("fatal error[", 0) != 0) return line;
+      title = line;
+    } else if (place.empty()) {
+      const std::size_t arrow = line.find("--> ");
+      if (arrow == std::string::npos) return title;
+      place = line.substr(arrow + 4);
+    } else if (const std::size_t caret = line.find('^'); caret != std::string::npos) {
+      const std::string message = trimmed(line.substr(caret));
+      return fmt::format("{}: {}{}", place, title, message.empty() ? "" : ": " + message);
+    }
+  }
+  if (!title.empty()) return place.empty() ? title : place + ": " + title;
+  return output.empty() ? "it says nothing" : output.substr(0, output.find('\n'));
+}
+
+std::string describe(const KernelRequest& request) {
+  return fmt::format("kernel {} ({}){}", request.stage, request.source, request.variantName.empty() ? "" : " [" + request.variantName + "]");
+}
+
+void runCompiler(const KernelRequest& request, const std::vector<std::string>& arguments, const fs::path& made) {
+  const ProcessResult result = runProcess(arguments);
+  if (!result.ok() || !fs::exists(made))
+    fail(fmt::format("{}: {}: {}", describe(request), fs::path(arguments[0]).filename().string(), firstError(result.output)));
+}
+
+void append(std::vector<std::string>& to, const std::vector<std::string>& more) { to.insert(to.end(), more.begin(), more.end()); }
+
+/// Throws if slangc read a file that the key knows nothing of. The list is a make rule: "output: file file", spaces escaped.
+void checkDependencies(const std::string& rule, const std::map<fs::path, std::string>& sources, const fs::path& work) {
+  const auto check = [&](const std::string& file) {
+    if (file.empty() || !fs::exists(file)) return;
+    const fs::path path = fs::weakly_canonical(file);
+    for (const auto& [known, text] : sources)
+      if (fs::weakly_canonical(known) == path) return;
+    if (path.parent_path() != fs::weakly_canonical(work)) fail(fmt::format("{}: read by slangc, but no import names it", file));
+  };
+  std::string file;
+  const std::size_t colon = rule.find(": ");
+  for (std::size_t i = colon == std::string::npos ? rule.size() : colon + 2; i < rule.size(); ++i) {
+    if (rule[i] == '\\' && i + 1 < rule.size() && rule[i + 1] != '\n') file += rule[++i];
+    else if (rule[i] == ' ' || rule[i] == '\n' || rule[i] == '\\') check(file), file.clear();
+    else file += rule[i];
+  }
+  check(file);
+}
+
+/// Slang's C++ with what stands ahead of it, to a shared object.
+void compileCpp(const KernelRequest& request, const CompileSettings& settings, const std::string& generated, const fs::path& work) {
+  const fs::path source = work / "kernel.cpp", made = work / binaryName(request.route);
+  const fs::path atomics = settings.slangSources / "atomics-cpp.h";
+  std::ofstream(source) << (settings.boundsChecks ? kBoundsChecks : "") << (fs::exists(atomics) ? readText(atomics) : "") << generated;
+  std::vector<std::string> arguments{settings.cxx.path.string()};
+  append(arguments, cxxBaseFlags());
+  append(arguments, settings.cxxFlags);
+  append(arguments, {"-o", made.string(), source.string()});
+  runCompiler(request, arguments, made);
+}
+
+void compileGlsl(const KernelRequest& request, const CompileSettings& settings, const fs::path& source, const fs::path& work) {
+  const fs::path made = work / binaryName(request.route);
+  runCompiler(request, {settings.glslang.path.string(), "-V", "--target-env", "vulkan1.2", "-S", "comp", "-o", made.string(), source.string()}, made);
+  std::vector<std::uint32_t> words = readSpirv(made);
+  decorateNoContraction(words);
+  writeSpirv(made, words);
+}
+
+}  // namespace
+
+const std::vector<std::string>& cxxBaseFlags() {
+  static const std::vector<std::string> flags{"-std=c++17", "-O3", "-march=native", "-ffp-contract=off", "-fno-math-errno",
+                                              "-fno-trapping-math", "-fno-semantic-interposition", "-fvisibility=hidden",
+                                              "-shared", "-fPIC", "-w"};
+  return flags;
+}
+
+std::vector<std::string> slangFlags(Route route) {
+  if (route == Route::kCpp) return {"-target", "cpp", "-DTESSERA_CPP", "-fp-mode", "precise", "-line-directive-mode", "none"};
+  if (route == Route::kGlsl) return {"-target", "glsl", "-fp-mode", "precise", "-line-directive-mode", "none"};
+  return {"-target", "spirv", "-O1", "-fp-mode", "precise"};
+}
+
+const char* binaryName(Route route) { return route == Route::kCpp ? "kernel.so" : "kernel.spv"; }
+
+std::string binaryEntry(const KernelRequest& request) { return request.route == Route::kCpp ? request.entry : "main"; }
+
+KernelInterface compileKernel(const KernelRequest& request, const CompileSettings& settings,
+                              const std::map<fs::path, std::string>& sources, const fs::path& work) {
+  std::ofstream(work / "variant.slang") << request.variantModule;
+  const fs::path reflection = work / "reflection.json", dependencies = work / "dependencies";
+  const fs::path made = request.route == Route::kSpirv ? work / binaryName(request.route)
+                                                       : work / (request.route == Route::kCpp ? "slang.cpp" : "kernel.comp");
+  std::vector<std::string> arguments{settings.slangc.path.string(), (settings.slangSources / request.source).string(),
+                                     "-I", work.string(), "-I", settings.slangSources.string()};
+  append(arguments, slangFlags(request.route));
+  append(arguments, {"-entry", request.entry, "-stage", "compute", "-o", made.string(), "-reflection-json", reflection.string(),
+                     "-depfile", dependencies.string()});
+  runCompiler(request, arguments, made);
+
+  try {
+    if (fs::exists(dependencies)) checkDependencies(readText(dependencies), sources, work);
+    const std::string generated = request.route == Route::kCpp ? readText(made) : "";
+    if (request.route == Route::kCpp) compileCpp(request, settings, generated, work);
+    if (request.route == Route::kGlsl) compileGlsl(request, settings, made, work);
+    if (request.route != Route::kCpp)
+      if (const std::vector<std::string> violations = checkSpirv(work / binaryName(request.route)); !violations.empty())
+        fail(fmt::format("its SPIR-V is not exact: {}", violations[0]));
+    return readReflection(readText(reflection), request.route, generated);
+  } catch (const Error& error) {
+    const std::string what = error.what(), name = describe(request);
+    throw Error(error.code(), what.rfind(name, 0) == 0 ? what : name + ": " + what);
+  }
+}
+
+}  // namespace tessera

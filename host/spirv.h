@@ -1,0 +1,24 @@
+// SPIR-V modules as words: what the contract forbids in one, and the one repair that the GLSL route needs.
+// Numbers are those of the SPIR-V 1.6 specification and of GLSL.std.450 1.00.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace tessera {
+
+/// Throws kFailure unless the file is a module in this machine's byte order.
+std::vector<std::uint32_t> readSpirv(const std::filesystem::path& module);
+void writeSpirv(const std::filesystem::path& module, const std::vector<std::uint32_t>& words);
+
+/// checkSpirv() of kernel-cache.h, on words.
+std::vector<std::string> checkSpirv(const std::vector<std::uint32_t>& words);
+
+/// Adds NoContraction to every float sum, difference, product and quotient that lacks it. glslang keeps them apart but writes the
+/// decoration only for what GLSL calls `precise`, which is a quality of variables: an expression that goes straight into a buffer or
+/// a comparison has none to put it on. So it is put on the instructions, where the driver reads it. No instruction changes.
+void decorateNoContraction(std::vector<std::uint32_t>& words);
+
+}  // namespace tessera
