@@ -17,6 +17,7 @@ Scene loadInput(const std::string& input, std::uint32_t width = 0, std::uint32_t
 
 /// Positions, triangles in the file's order (polygons fanned from their first corner), normals if the file has them, else
 /// computed (area-weighted vertex normals). Every face is kept: OpenMesh's half-edge mesh is not used for reading.
+inline constexpr std::uint32_t kBadIndex = 0xffffffffu;
 struct Mesh {
   std::vector<glm::vec3> positions;
   std::vector<glm::vec3> normals;
@@ -32,10 +33,11 @@ const std::vector<GeneratorDoc>& generatorDocs();
 
 /// A perspective camera that sees the whole mesh from the front, a little above: deterministic, from the bounding box.
 Matrix frameCamera(const Mesh& mesh, std::uint32_t width, std::uint32_t height);
-/// Appends a mesh to a scene (ids follow on).
+/// Appends a mesh to a scene that holds no clip positions (ids follow on).
 void append(Scene& scene, const Mesh& mesh);
 
-/// Clip-space positions and triangles, bit-exact: what parity writes on a difference, and tests read.
+/// Clip-space positions (of the contract's transform, where the scene has object space ones) and triangles, bit-exact: what
+/// parity writes on a difference, and tests read. A replay file is text: see replay.cpp.
 void writeReplay(const std::filesystem::path& path, const Scene& scene);
 Scene readReplay(const std::filesystem::path& path);
 /// SHA-256 (hex) of what defines the image: size, matrix, positions or clip positions, triangles.

@@ -1,0 +1,71 @@
+#include "datasets/input.h"
+
+#include <fmt/format.h>
+
+#include "datasets/generators.h"
+#include "datasets/scene-file.h"
+#include "datasets/text.h"
+#include "host/error.h"
+
+namespace tessera {
+namespace {
+
+constexpr std::string_view kGenerate = "generate:";
+
+/// The size that was asked for, or the input's own.
+void setSize(Scene& scene, std::uint32_t width, std::uint32_t height) {
+  if (width == 0 && height == 0) return;
+  for (const std::uint32_t extent : {width, height})
+    if (extent < 1 || extent > kMaxExtent) failUsage(fmt::format("size {}x{}: 1x1 to {}x{} would be right", width, height, kMaxExtent, kMaxExtent));
+  scene.width = width;
+  scene.height = height;
+}
+
+}  // namespace
+
+Source loadSource(const std::string& source, const std::filesystem::path& folder) {
+  if (!source.starts_with(kGenerate)) return {readMesh(folder / source), false};
+  const std::string spec = source.substr(kGenerate.size());
+  return {generateMesh(spec), parseGenerator(spec).generator->flat};
+}
+
+Scene loadInput(const std::string& input, std::uint32_t width, std::uint32_t height) {
+  const std::filesystem::path path = input;
+  const bool generated = input.starts_with(kGenerate);
+  const std::string extension = generated ? "" : lowerCase(path.extension().string());
+  Scene scene;
+  setSize(scene, width, height);
+  if (extension == ".toml") return readSceneFile(path, width, height);
+  if (extension == ".replay") {
+    scene = readReplay(path);
+    setSize(scene, width, height);
+    return scene;
+  }
+  scene.name = generated ? input.substr(kGenerate.size()) : path.stem().string();
+  const Source source = loadSource(input, "");
+  append(scene, source.mesh);
+  scene.clipFromObject = source.flat ? kIdentity : frameCamera(source.mesh, scene.width, scene.height);
+  return scene;
+}
+
+void append(Scene& scene, const Mesh& mesh) {
+  if (!scene.clip.empty()) fail("a mesh cannot be appended to a scene of clip-space positions");
+  const std::size_t first = scene.positions.size(), count = mesh.positions.size();
+  if (first + count >= kBadIndex || scene.triangles.size() + mesh.triangles.size() >= kBadIndex)
+    failUsage(fmt::format("{} vertices and {} triangles: ids and indices reach to {}", first + count,
+                          scene.triangles.size() + mesh.triangles.size(), kBadIndex - 1));
+  scene.positions.insert(scene.positions.end(), mesh.positions.begin(), mesh.positions.end());
+  if (!scene.normals.empty() || !mesh.normals.empty()) {
+    scene.normals.resize(first, glm::vec3(0, 0, 1));
+    scene.normals.insert(scene.normals.end(), mesh.normals.begin(), mesh.normals.end());
+    scene.normals.resize(first + count, glm::vec3(0, 0, 1));
+  }
+  scene.triangles.reserve(scene.triangles.size() + mesh.triangles.size());
+  for (Triangle t : mesh.triangles) {
+    // An index out of range must not reach the vertices of a mesh that comes later.
+    for (std::uint32_t& v : t) v = v < count ? v + static_cast<std::uint32_t>(first) : kBadIndex;
+    scene.triangles.push_back(t);
+  }
+}
+
+}  // namespace tessera

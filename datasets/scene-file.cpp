@@ -1,0 +1,182 @@
+#include "datasets/scene-file.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+#include <optional>
+#include <toml++/toml.h>
+
+#include "datasets/camera.h"
+#include "datasets/text.h"
+#include "host/error.h"
+
+namespace tessera {
+namespace {
+
+/// One table of the file, with what is needed to say where something is wrong.
+class Table {
+ public:
+  Table(const std::string& file, const toml::table& table, std::string_view name, std::initializer_list<std::string_view> keys)
+      : file_(file), table_(table) {
+    for (const auto& [key, node] : table)
+      if (std::ranges::find(keys, key.str()) == keys.end())
+        fail(key.source(), fmt::format("{} has no key '{}'; {} would be right", name, key.str(), fmt::join(keys, ", ")));
+  }
+
+  bool has(std::string_view key) const { return table_.contains(key); }
+  const toml::node* find(std::string_view key) const { return table_.get(key); }
+  const toml::node& need(std::string_view key, std::string_view what) const {
+    const toml::node* const node = find(key);
+    if (!node) fail(table_.source(), fmt::format("{} is missing: {}", key, what));
+    return *node;
+  }
+  [[noreturn]] void fail(const toml::source_region& where, std::string_view wrong) const {
+    failUsage(fmt::format("{}:{}:{}: {}", file_, where.begin.line, where.begin.column, wrong));
+  }
+
+  /// `count` finite numbers, or nothing where the key is not there.
+  std::optional<std::vector<double>> numbers(std::string_view key, std::size_t count) const {
+    const toml::node* const node = find(key);
+    if (!node) return std::nullopt;
+    const toml::array* const array = node->as_array();
+    std::vector<double> values;
+    if (array)
+      for (const toml::node& element : *array)
+        if (element.is_number() && std::isfinite(*element.value<double>())) values.push_back(*element.value<double>());
+    if (!array || array->size() != count || values.size() != count)
+      fail(node->source(), fmt::format("{}: {} finite numbers in brackets would be right", key, count));
+    return values;
+  }
+  std::optional<double> number(std::string_view key) const {
+    const toml::node* const node = find(key);
+    if (!node) return std::nullopt;
+    if (!node->is_number() || !std::isfinite(*node->value<double>()))
+      fail(node->source(), fmt::format("{}: a finite number would be right", key));
+    return node->value<double>();
+  }
+  std::optional<Matrix> matrix(std::string_view key) const {
+    const auto values = numbers(key, 16);
+    if (!values) return std::nullopt;
+    Matrix matrix;
+    for (std::size_t i = 0; i < 16; ++i) {
+      matrix[i] = static_cast<float>((*values)[i]);
+      if (!std::isfinite(matrix[i])) fail(find(key)->source(), fmt::format("{}: {} is beyond float32", key, (*values)[i]));
+    }
+    return matrix;
+  }
+
+ private:
+  const std::string& file_;
+  const toml::table& table_;
+};
+
+/// Positions: ((m0 x + m1 y) + m2 z) + m3, each component, float32. Normals by the inverse transpose.
+void applyMatrix(Mesh& mesh, const Matrix& m) {
+  const auto row = [&](std::size_t r, const glm::vec3& p) { return ((m[r] * p.x + m[r + 1] * p.y) + m[r + 2] * p.z) + m[r + 3]; };
+  for (glm::vec3& p : mesh.positions) p = {row(0, p), row(4, p), row(8, p)};
+  // The cofactor matrix: the inverse transpose times the determinant, there even where a matrix flattens. Its sign is taken out,
+  // so that normals stay on their side under a reflection.
+  const glm::dvec3 x(m[0], m[1], m[2]), y(m[4], m[5], m[6]), z(m[8], m[9], m[10]);
+  const double sign = glm::dot(x, glm::cross(y, z)) < 0 ? -1 : 1;
+  const glm::dvec3 cx = glm::cross(y, z) * sign, cy = glm::cross(z, x) * sign, cz = glm::cross(x, y) * sign;
+  for (glm::vec3& normal : mesh.normals) {
+    const glm::dvec3 n(normal), turned(glm::dot(cx, n), glm::dot(cy, n), glm::dot(cz, n));
+    const double length = glm::length(turned);
+    normal = length > 0 && std::isfinite(length) ? glm::vec3(turned / length) : glm::vec3(0, 0, 1);
+  }
+}
+
+/// Appends the mesh of one [[mesh]]; true if it fills clip space as it is.
+bool addMesh(Scene& scene, const std::string& file, const toml::table& table, const std::filesystem::path& folder) {
+  const Table mesh(file, table, "[[mesh]]", {"source", "matrix"});
+  const toml::node& source = mesh.need("source", "a path relative to this file, or generate:NAME");
+  const auto text = source.value<std::string>();
+  if (!text) mesh.fail(source.source(), "source: a string would be right");
+  const auto matrix = mesh.matrix("matrix");
+  if (matrix && !((*matrix)[12] == 0 && (*matrix)[13] == 0 && (*matrix)[14] == 0 && (*matrix)[15] == 1))
+    mesh.fail(mesh.find("matrix")->source(), "matrix: a last row of 0, 0, 0, 1 would be right");
+  Source loaded = [&]() -> Source {
+    try {
+      return loadSource(*text, folder);
+    } catch (const Error& error) {
+      mesh.fail(source.source(), error.what());
+    }
+  }();
+  if (matrix) applyMatrix(loaded.mesh, *matrix);
+  append(scene, loaded.mesh);
+  return loaded.flat;
+}
+
+Matrix readCamera(const std::string& file, const toml::table& table, std::uint32_t width, std::uint32_t height) {
+  const Table camera(file, table, "[camera]", {"matrix", "eye", "target", "up", "fov", "near", "far"});
+  if (const auto matrix = camera.matrix("matrix")) {
+    if (table.size() > 1) camera.fail(table.source(), "[camera] has matrix and other keys; matrix alone, or eye and target, would be right");
+    return *matrix;
+  }
+  camera.need("eye", "a matrix, or eye and target, would be right");
+  camera.need("target", "a matrix, or eye and target, would be right");
+  const auto vector = [&](std::string_view key, const glm::dvec3& otherwise) {
+    const auto values = camera.numbers(key, 3);
+    return values ? glm::dvec3((*values)[0], (*values)[1], (*values)[2]) : otherwise;
+  };
+  Camera result;
+  result.eye = vector("eye", {});
+  result.target = vector("target", {});
+  result.up = vector("up", result.up);
+  result.fov = camera.number("fov").value_or(result.fov);
+  result.near = camera.number("near").value_or(result.near);
+  result.far = camera.number("far").value_or(result.far);
+  const glm::dvec3 forward = result.target - result.eye, side = glm::cross(forward, result.up);
+  if (!(result.fov > 0 && result.fov < 180)) camera.fail(table.source(), fmt::format("fov {}: between 0 and 180 degrees would be right", result.fov));
+  if (!(result.near > 0 && result.far > result.near))
+    camera.fail(table.source(), fmt::format("near {} and far {}: 0 < near < far would be right", result.near, result.far));
+  if (!(glm::dot(forward, forward) > 0)) camera.fail(table.source(), "eye and target are one point");
+  if (!(glm::dot(side, side) > 0)) camera.fail(table.source(), "up lies along the line of sight");
+  return perspective(result, width, height);
+}
+
+}  // namespace
+
+Scene readSceneFile(const std::filesystem::path& path, std::uint32_t width, std::uint32_t height) {
+  const std::string file = path.string();
+  toml::table root;
+  try {
+    root = toml::parse(readFile(path), file);
+  } catch (const toml::parse_error& error) {
+    const auto& at = error.source().begin;
+    failUsage(fmt::format("{}:{}:{}: {}", file, at.line, at.column, error.description()));
+  }
+  const Table top(file, root, "a scene", {"size", "mesh", "camera"});
+  Scene scene;
+  scene.name = path.stem().string();
+  if (const auto size = top.numbers("size", 2)) {
+    const auto extent = [&](double value) {
+      if (!(value >= 1 && value <= kMaxExtent && value == std::floor(value)))
+        top.fail(top.find("size")->source(), fmt::format("size: {} is not a whole number from 1 to {}", value, kMaxExtent));
+      return static_cast<std::uint32_t>(value);
+    };
+    scene.width = extent((*size)[0]);
+    scene.height = extent((*size)[1]);
+  }
+  if (width != 0) scene.width = width;
+  if (height != 0) scene.height = height;
+
+  const toml::node& meshes = top.need("mesh", "at least one [[mesh]] would be right");
+  if (!meshes.is_array_of_tables()) top.fail(meshes.source(), "mesh: [[mesh]] would be right");
+  bool flat = true;
+  for (const toml::node& mesh : *meshes.as_array()) flat &= addMesh(scene, file, *mesh.as_table(), path.parent_path());
+  if (const toml::node* const camera = top.find("camera")) {
+    if (!camera->is_table()) top.fail(camera->source(), "camera: [camera] would be right");
+    scene.clipFromObject = readCamera(file, *camera->as_table(), scene.width, scene.height);
+  } else if (!flat) {
+    scene.clipFromObject = frameCamera({scene.positions, {}, {}}, scene.width, scene.height);
+  }
+  return scene;
+}
+
+}  // namespace tessera

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <filesystem>
+
+#include "datasets/input.h"
+
+namespace tessera {
+
+/// A mesh, and whether it fills clip space as it is (a flat generator).
+struct Source {
+  Mesh mesh;
+  bool flat;
+};
+/// A mesh file, relative to `folder`, or a generator.
+Source loadSource(const std::string& source, const std::filesystem::path& folder);
+
+/// A scene in TOML (datasets/README.md has its keys). `width` and `height`, where not 0, take the place of its size.
+Scene readSceneFile(const std::filesystem::path& path, std::uint32_t width, std::uint32_t height);
+
+}  // namespace tessera
