@@ -25,9 +25,7 @@ vk::DebugUtilsMessengerCreateInfoEXT messengerInfo(void* user) {
   return {{}, Severity::eWarning | Severity::eError, Type::eValidation | Type::ePerformance, forwardMessage, user};
 }
 
-vk::raii::Context makeContext() try {
-  return vk::raii::Context();
-} catch (const std::runtime_error&) {
+vk::raii::Context makeContext() try { return vk::raii::Context(); } catch (const std::runtime_error&) {
   failUsage("no Vulkan loader (libvulkan.so.1) on this machine; Debian: libvulkan1 mesa-vulkan-drivers");
 }
 
@@ -40,7 +38,8 @@ vk::raii::Instance makeInstance(const vk::raii::Context& context, bool validatio
     const auto layers = context.enumerateInstanceLayerProperties();
     const auto isOurs = [](const auto& layer) { return std::strcmp(layer.layerName, kValidationLayer) == 0; };
     if (std::none_of(layers.begin(), layers.end(), isOurs))
-      failUsage(fmt::format("{} is not installed (Debian: vulkan-validationlayers); run without validation", kValidationLayer));
+      failUsage(fmt::format("{} is not installed (Debian: vulkan-validationlayers); run without validation",
+                            kValidationLayer));
     info.setPEnabledLayerNames(kValidationLayer).setPEnabledExtensionNames(extensions).setPNext(&messenger);
   }
   return {context, info};
@@ -52,10 +51,14 @@ vk::raii::Instance makeInstance(const vk::raii::Context& context, bool validatio
 
 int rank(vk::PhysicalDeviceType type) {
   switch (type) {
-    case vk::PhysicalDeviceType::eDiscreteGpu: return 0;
-    case vk::PhysicalDeviceType::eIntegratedGpu: return 1;
-    case vk::PhysicalDeviceType::eVirtualGpu: return 2;
-    default: return 3;
+    case vk::PhysicalDeviceType::eDiscreteGpu:
+      return 0;
+    case vk::PhysicalDeviceType::eIntegratedGpu:
+      return 1;
+    case vk::PhysicalDeviceType::eVirtualGpu:
+      return 2;
+    default:
+      return 3;
   }
 }
 
@@ -98,7 +101,8 @@ std::string Adapter::driverText() const {
 
 std::string Adapter::apiVersionText() const {
   const std::uint32_t version = properties.apiVersion;
-  return fmt::format("{}.{}.{}", VK_API_VERSION_MAJOR(version), VK_API_VERSION_MINOR(version), VK_API_VERSION_PATCH(version));
+  return fmt::format("{}.{}.{}", VK_API_VERSION_MAJOR(version), VK_API_VERSION_MINOR(version),
+                     VK_API_VERSION_PATCH(version));
 }
 
 bool Adapter::isSoftware() const {
@@ -124,12 +128,14 @@ std::vector<Adapter> Instance::adapters(vk::QueueFlags queueFlags) const try {
 Adapter selectAdapter(std::vector<Adapter> adapters, const std::string& select) {
   if (adapters.empty()) failUsage("no Vulkan adapter on this machine; Debian: mesa-vulkan-drivers has a software one");
   std::string known;
-  for (std::size_t i = 0; i < adapters.size(); ++i) known += fmt::format("{}{} {}", i ? ", " : "", i, adapters[i].name());
+  for (std::size_t i = 0; i < adapters.size(); ++i)
+    known += fmt::format("{}{} {}", i ? ", " : "", i, adapters[i].name());
 
   auto chosen = adapters.end();
   if (select.empty()) {
     chosen = std::min_element(adapters.begin(), adapters.end(), [](const Adapter& a, const Adapter& b) {
-      return std::pair(!a.whyNot.empty(), rank(a.properties.deviceType)) < std::pair(!b.whyNot.empty(), rank(b.properties.deviceType));
+      return std::pair(!a.whyNot.empty(), rank(a.properties.deviceType)) <
+             std::pair(!b.whyNot.empty(), rank(b.properties.deviceType));
     });
   } else if (std::all_of(select.begin(), select.end(), [](unsigned char c) { return std::isdigit(c); })) {
     const unsigned long index = select.size() < 9 ? std::stoul(select) : adapters.size();
@@ -139,7 +145,8 @@ Adapter selectAdapter(std::vector<Adapter> adapters, const std::string& select) 
                           [&](const Adapter& a) { return lower(a.name()).find(lower(select)) != std::string::npos; });
   }
   if (chosen == adapters.end()) failUsage(fmt::format("vulkan:{}: no such device; there are: {}", select, known));
-  if (!chosen->whyNot.empty()) failUnsupported(fmt::format("vulkan: {} cannot be used: {}", chosen->name(), chosen->whyNot));
+  if (!chosen->whyNot.empty())
+    failUnsupported(fmt::format("vulkan: {} cannot be used: {}", chosen->name(), chosen->whyNot));
   return std::move(*chosen);
 }
 
@@ -151,7 +158,8 @@ std::vector<VulkanAdapter> listVulkanAdapters() try {
   std::vector<VulkanAdapter> list;
   const vulkan::Instance instance(false, {});
   for (const auto& adapter : instance.adapters())
-    list.push_back({static_cast<unsigned>(list.size()), adapter.name(), adapter.driverText(), adapter.apiVersionText(), adapter.whyNot});
+    list.push_back({static_cast<unsigned>(list.size()), adapter.name(), adapter.driverText(), adapter.apiVersionText(),
+                    adapter.whyNot});
   return list;
 } catch (const Error&) {
   return {};

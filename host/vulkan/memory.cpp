@@ -19,7 +19,8 @@ vk::raii::Device makeDevice(const Adapter& adapter) {
   vk::PhysicalDeviceFeatures features;
   features.shaderInt64 = adapter.features.shaderInt64;
   features.shaderFloat64 = adapter.features.shaderFloat64;
-  features.geometryShader = adapter.features.geometryShader;  // gl_PrimitiveID in the fragment shader of the draw baseline
+  features.geometryShader =
+      adapter.features.geometryShader;  // gl_PrimitiveID in the fragment shader of the draw baseline
   const float priority = 1.0f;
   const vk::DeviceQueueCreateInfo queue({}, adapter.queueFamily, 1, &priority);
   const vk::DeviceCreateInfo info({}, queue, {}, {}, &features, &features12);
@@ -46,9 +47,10 @@ Block::Block(std::shared_ptr<Machine> machine, std::uint64_t bytes, vk::BufferUs
     : machine_(std::move(machine)), bytes_(bytes) {
   using Flag = vk::MemoryPropertyFlagBits;
   constexpr auto kHostFast = Flag::eHostVisible | Flag::eHostCoherent | Flag::eHostCached;
-  // The better type first, then the one that every driver has. Device memory that the host sees uncached, across a bus, is
-  // left unmapped: reading it is slow.
-  const vk::MemoryPropertyFlags must = residence == Residence::kDevice ? Flag::eDeviceLocal : Flag::eHostVisible | Flag::eHostCoherent;
+  // The better type first, then the one that every driver has. Device memory that the host sees uncached, across a bus,
+  // is left unmapped: reading it is slow.
+  const vk::MemoryPropertyFlags must =
+      residence == Residence::kDevice ? Flag::eDeviceLocal : Flag::eHostVisible | Flag::eHostCoherent;
   translated(fmt::format("vulkan: buffer '{}' of {} bytes", name, bytes), [&] {
     buffer_ = {machine_->device, vk::BufferCreateInfo({}, bytes, usage)};
     const vk::MemoryRequirements needs = buffer_.getMemoryRequirements();

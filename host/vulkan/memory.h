@@ -16,7 +16,7 @@ struct Machine {
   Adapter adapter;
   vk::raii::Device device;
   vk::PhysicalDeviceMemoryProperties memory;
-  bool staged;   ///< VulkanOptions::staged
+  bool staged;  ///< VulkanOptions::staged
   std::uint64_t heldBytes = 0, peakBytes = 0;
 
   explicit Machine(const VulkanOptions& options, vk::QueueFlags queueFlags = vk::QueueFlagBits::eCompute);
@@ -25,20 +25,21 @@ struct Machine {
 };
 
 enum class Residence {
-  kDevice,   ///< device-local; mapped where the host reads that memory at full speed (lavapipe, integrated GPUs)
-  kHost,     ///< host-visible, coherent, cached where there is such a type; always mapped
+  kDevice,  ///< device-local; mapped where the host reads that memory at full speed (lavapipe, integrated GPUs)
+  kHost,    ///< host-visible, coherent, cached where there is such a type; always mapped
 };
 
 /// A Vulkan buffer with its memory. Counted into the machine's held and peak bytes.
 class Block {
  public:
-  Block(std::shared_ptr<Machine> machine, std::uint64_t bytes, vk::BufferUsageFlags usage, Residence residence, const std::string& name);
+  Block(std::shared_ptr<Machine> machine, std::uint64_t bytes, vk::BufferUsageFlags usage, Residence residence,
+        const std::string& name);
   ~Block();
   Block(const Block&) = delete;
 
   vk::Buffer handle() const { return *buffer_; }
   std::uint64_t bytes() const { return bytes_; }
-  std::byte* mapped() const { return mapped_; }   ///< nullptr where the host does not see it
+  std::byte* mapped() const { return mapped_; }  ///< nullptr where the host does not see it
 
  private:
   std::shared_ptr<Machine> machine_;

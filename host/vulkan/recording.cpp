@@ -27,13 +27,15 @@ vk::raii::CommandBuffer makeCommands(const vk::raii::Device& device, const vk::r
 Recording::Recording(std::shared_ptr<Machine> machine)
     : machine_(std::move(machine)),
       queue_(machine_->device, machine_->adapter.queueFamily, 0),
-      commandPool_(machine_->device, {vk::CommandPoolCreateFlagBits::eResetCommandBuffer, machine_->adapter.queueFamily}),
+      commandPool_(machine_->device,
+                   {vk::CommandPoolCreateFlagBits::eResetCommandBuffer, machine_->adapter.queueFamily}),
       commands_(makeCommands(machine_->device, commandPool_)),
       fence_(machine_->device, vk::FenceCreateInfo()),
       sets_(makeSetPool(machine_->device)),
       timestamps_(machine_->device, {{}, vk::QueryType::eTimestamp, 2 * kMostDispatches}),
       blocks_(machine_, kBlocksBytes, vk::BufferUsageFlagBits::eUniformBuffer, Residence::kHost, "uniform blocks"),
-      blockAlignment_(std::max<vk::DeviceSize>(machine_->adapter.properties.limits.minUniformBufferOffsetAlignment, 16)) {}
+      blockAlignment_(
+          std::max<vk::DeviceSize>(machine_->adapter.properties.limits.minUniformBufferOffsetAlignment, 16)) {}
 
 void Recording::begin() {
   if (!open_) {
@@ -43,9 +45,11 @@ void Recording::begin() {
   }
   using Stage = vk::PipelineStageFlagBits;
   using Access = vk::AccessFlagBits;
-  const vk::MemoryBarrier all(Access::eShaderWrite | Access::eTransferWrite, Access::eShaderRead | Access::eShaderWrite |
-                                                                                Access::eTransferRead | Access::eTransferWrite);
-  commands_.pipelineBarrier(Stage::eComputeShader | Stage::eTransfer, Stage::eComputeShader | Stage::eTransfer, {}, all, {}, {});
+  const vk::MemoryBarrier all(
+      Access::eShaderWrite | Access::eTransferWrite,
+      Access::eShaderRead | Access::eShaderWrite | Access::eTransferRead | Access::eTransferWrite);
+  commands_.pipelineBarrier(Stage::eComputeShader | Stage::eTransfer, Stage::eComputeShader | Stage::eTransfer, {}, all,
+                            {}, {});
 }
 
 void Recording::fill(std::shared_ptr<Block> to, vk::DeviceSize offset, vk::DeviceSize bytes, std::uint32_t value) {
@@ -56,8 +60,8 @@ void Recording::fill(std::shared_ptr<Block> to, vk::DeviceSize offset, vk::Devic
   inUse_.push_back(std::move(to));
 }
 
-void Recording::copy(std::shared_ptr<Block> from, vk::DeviceSize fromOffset, std::shared_ptr<Block> to, vk::DeviceSize toOffset,
-                     vk::DeviceSize bytes) {
+void Recording::copy(std::shared_ptr<Block> from, vk::DeviceSize fromOffset, std::shared_ptr<Block> to,
+                     vk::DeviceSize toOffset, vk::DeviceSize bytes) {
   translated("vulkan: copy", [&] {
     begin();
     commands_.copyBuffer(from->handle(), to->handle(), vk::BufferCopy(fromOffset, toOffset, bytes));
@@ -70,14 +74,16 @@ vk::DescriptorSet Recording::makeSet(const VulkanKernel& kernel, std::span<const
                                      std::span<const std::byte> block) {
   // The plain handle, not the RAII one: the whole pool is reset after each run.
   const vk::DescriptorSetAllocateInfo info(*sets_, *kernel.pipeline()->setLayout);
-  const vk::DescriptorSet set = (*machine_->device).allocateDescriptorSets(info, *machine_->device.getDispatcher()).front();
+  const vk::DescriptorSet set =
+      (*machine_->device).allocateDescriptorSets(info, *machine_->device.getDispatcher()).front();
 
   std::vector<vk::DescriptorBufferInfo> infos;
   infos.reserve(buffers.size() + 1);  // the writes point into it
   std::vector<vk::WriteDescriptorSet> writes;
   for (std::size_t i = 0; i < buffers.size(); ++i) {
     infos.emplace_back(buffers[i]->handle(), 0, VK_WHOLE_SIZE);
-    writes.emplace_back(set, kernel.storage()[i].binding, 0, 1, vk::DescriptorType::eStorageBuffer, nullptr, &infos.back());
+    writes.emplace_back(set, kernel.storage()[i].binding, 0, 1, vk::DescriptorType::eStorageBuffer, nullptr,
+                        &infos.back());
   }
   if (kernel.hasBlock()) {
     std::memcpy(blocks_.mapped() + blockBytes_, block.data(), block.size());
@@ -89,8 +95,8 @@ vk::DescriptorSet Recording::makeSet(const VulkanKernel& kernel, std::span<const
   return set;
 }
 
-void Recording::dispatch(const VulkanKernel& kernel, std::span<const std::shared_ptr<Block>> buffers, std::span<const std::byte> block,
-                         std::uint32_t groupsX, std::uint32_t groupsY) {
+void Recording::dispatch(const VulkanKernel& kernel, std::span<const std::shared_ptr<Block>> buffers,
+                         std::span<const std::byte> block, std::uint32_t groupsX, std::uint32_t groupsY) {
   const auto storage = static_cast<std::uint32_t>(buffers.size());
   if (stages_.size() == kMostDispatches || storageDescriptors_ + storage > kMostStorageDescriptors ||
       blockBytes_ + block.size() > kBlocksBytes)
@@ -117,7 +123,8 @@ void Recording::dispatch(const VulkanKernel& kernel, std::span<const std::shared
 void Recording::run() {
   if (!open_) return;
   translated("vulkan: " + machine_->adapter.name(), [&] {
-    const vk::MemoryBarrier toHost(vk::AccessFlagBits::eShaderWrite | vk::AccessFlagBits::eTransferWrite, vk::AccessFlagBits::eHostRead);
+    const vk::MemoryBarrier toHost(vk::AccessFlagBits::eShaderWrite | vk::AccessFlagBits::eTransferWrite,
+                                   vk::AccessFlagBits::eHostRead);
     commands_.pipelineBarrier(vk::PipelineStageFlagBits::eComputeShader | vk::PipelineStageFlagBits::eTransfer,
                               vk::PipelineStageFlagBits::eHost, {}, toHost, {}, {});
     commands_.end();
@@ -139,12 +146,14 @@ void Recording::run() {
 void Recording::readTimestamps() {
   if (stages_.empty()) return;
   const auto count = static_cast<std::uint32_t>(2 * stages_.size());
-  const auto [result, ticks] = timestamps_.getResults<std::uint64_t>(0, count, count * sizeof(std::uint64_t), sizeof(std::uint64_t),
-                                                                     vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait);
+  const auto [result, ticks] =
+      timestamps_.getResults<std::uint64_t>(0, count, count * sizeof(std::uint64_t), sizeof(std::uint64_t),
+                                            vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait);
   if (result != vk::Result::eSuccess) fail("vulkan: reading timestamps: " + vk::to_string(result));
   if (!hasFirstTick_) firstTick_ = ticks.front();
   hasFirstTick_ = true;
-  // From the first tick on: the counter has `timestampBits` bits and may wrap, and a double holds small numbers exactly.
+  // From the first tick on: the counter has `timestampBits` bits and may wrap, and a double holds small numbers
+  // exactly.
   const std::uint32_t bits = machine_->adapter.timestampBits;
   const std::uint64_t mask = bits == 64 ? ~0ull : (1ull << bits) - 1;
   const double period = machine_->adapter.properties.limits.timestampPeriod;  // ns a tick

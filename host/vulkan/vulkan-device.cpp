@@ -48,10 +48,11 @@ DeviceInfo describe(const Adapter& adapter) {
   info.int64 = adapter.features.shaderInt64;
   info.atomicMin64 = info.int64 && adapter.features12.shaderBufferInt64Atomics;
   info.maxBufferBytes = std::min<std::uint64_t>(limits.maxStorageBufferRange, maintenance3.maxMemoryAllocationSize);
-  // lavapipe 22.3 stops an invocation after 65,536 iterations of its loops together, without an error. Elsewhere the bound keeps
-  // one dispatch well below the seconds after which a desktop's watchdog resets the GPU.
+  // lavapipe 22.3 stops an invocation after 65,535 iterations of its loops together, without an error. Elsewhere the
+  // bound keeps one dispatch well below the seconds after which a desktop's watchdog resets the GPU.
   info.maxLoopIterations = adapter.driver.driverID == vk::DriverId::eMesaLlvmpipe ? 65535 : 1u << 20;
   info.maxGroupsPerDimension = std::min(limits.maxComputeWorkGroupCount[0], limits.maxComputeWorkGroupCount[1]);
+  info.maxGroupBytes = limits.maxComputeSharedMemorySize;
   info.timeClock = "timestamp";
   return info;
 }
@@ -65,12 +66,13 @@ class VulkanDevice : public Device {
 
   std::unique_ptr<Buffer> createBuffer(std::size_t bytes, std::string_view name) override {
     if (bytes > info_.maxBufferBytes)
-      failUnsupported(fmt::format("buffer '{}' of {} bytes: {} binds at most {}", name, bytes, info_.name, info_.maxBufferBytes));
+      failUnsupported(
+          fmt::format("buffer '{}' of {} bytes: {} binds at most {}", name, bytes, info_.name, info_.maxBufferBytes));
     using Usage = vk::BufferUsageFlagBits;
     constexpr std::size_t kSmallest = 256;  // no element is larger
     auto block = std::make_shared<Block>(machine_, std::max((bytes + 3) / 4 * 4, kSmallest),
-                                         Usage::eStorageBuffer | Usage::eTransferSrc | Usage::eTransferDst, Residence::kDevice,
-                                         std::string(name));
+                                         Usage::eStorageBuffer | Usage::eTransferSrc | Usage::eTransferDst,
+                                         Residence::kDevice, std::string(name));
     return std::make_unique<VulkanBuffer>(std::move(block), bytes, std::string(name));
   }
 
@@ -121,7 +123,8 @@ class VulkanDevice : public Device {
   void fill(Buffer& buffer, std::size_t offset, std::size_t bytes, std::uint32_t value) override {
     const VulkanBuffer& to = ours(buffer);
     to.checkRange("fill", offset, bytes);
-    if (offset % 4 != 0 || bytes % 4 != 0) fail(fmt::format("fill of {} bytes at {}: both must be multiples of 4", bytes, offset));
+    if (offset % 4 != 0 || bytes % 4 != 0)
+      fail(fmt::format("fill of {} bytes at {}: both must be multiples of 4", bytes, offset));
     if (bytes > 0) recording_.fill(to.block(), offset, bytes, value);
   }
 
@@ -132,7 +135,8 @@ class VulkanDevice : public Device {
     const std::string& stage = kernel.compiled().stage;
     std::vector<std::shared_ptr<Block>> buffers;
     for (const auto& resource : ourKernel->storage()) {
-      const auto bound = std::find_if(bindings.begin(), bindings.end(), [&](const Binding& b) { return b.name == resource.name; });
+      const auto bound =
+          std::find_if(bindings.begin(), bindings.end(), [&](const Binding& b) { return b.name == resource.name; });
       if (bound == bindings.end() || bound->buffer == nullptr)
         fail(fmt::format("kernel {}: nothing is bound to '{}'", stage, resource.name));
       buffers.push_back(ours(*bound->buffer).block());
@@ -145,7 +149,9 @@ class VulkanDevice : public Device {
     const std::uint32_t most = std::min(info_.maxGroupsPerDimension, 65535u);
     const bool oneRow = groups <= most;
     const std::uint32_t rows = oneRow ? 1 : (groups - 1) / kGroupRow + 1;
-    if (rows > most) failUnsupported(fmt::format("kernel {}: {} groups, {} runs at most {}", stage, groups, info_.name, std::uint64_t{most} * kGroupRow));
+    if (rows > most)
+      failUnsupported(fmt::format("kernel {}: {} groups, {} runs at most {}", stage, groups, info_.name,
+                                  std::uint64_t{most} * kGroupRow));
     recording_.dispatch(*ourKernel, buffers, block, oneRow ? groups : kGroupRow, rows);
   }
 
@@ -164,7 +170,8 @@ class VulkanDevice : public Device {
  private:
   Block& staging() {
     if (!staging_)
-      staging_ = std::make_shared<Block>(machine_, kStagingBytes, vk::BufferUsageFlagBits::eTransferSrc | vk::BufferUsageFlagBits::eTransferDst,
+      staging_ = std::make_shared<Block>(machine_, kStagingBytes,
+                                         vk::BufferUsageFlagBits::eTransferSrc | vk::BufferUsageFlagBits::eTransferDst,
                                          Residence::kHost, "staging");
     return *staging_;
   }
@@ -172,8 +179,8 @@ class VulkanDevice : public Device {
   std::shared_ptr<Machine> machine_;
   DeviceInfo info_;
   Recording recording_;
-  std::shared_ptr<Block> staging_;     // made when a buffer is not mapped
-  vk::DeviceSize stagedBytes_ = 0;     // of it, since the last finish
+  std::shared_ptr<Block> staging_;  // made when a buffer is not mapped
+  vk::DeviceSize stagedBytes_ = 0;  // of it, since the last finish
 };
 
 }  // namespace

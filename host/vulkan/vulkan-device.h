@@ -10,14 +10,20 @@
 
 namespace tessera {
 
-struct VulkanAdapter { unsigned index; std::string name, driver, apiVersion, whyNot /* empty when usable */; };
-std::vector<VulkanAdapter> listVulkanAdapters();   ///< never throws for a missing loader or driver: the list is empty
+struct VulkanAdapter {
+  unsigned index;
+  std::string name, driver, apiVersion;
+  std::string whyNot;  ///< empty when usable
+};
+std::vector<VulkanAdapter> listVulkanAdapters();  ///< never throws for a missing loader or driver: the list is empty
 
 struct VulkanOptions {
-  std::string select;                                    ///< "" a GPU before a software driver, "N" by index, else part of the name; kUsage if there is none
-  bool validation = false;                               ///< load VK_LAYER_KHRONOS_validation; kUsage if it is not installed
-  std::function<void(const std::string&)> onMessage;     ///< validation messages (warnings and errors); empty: standard error
-  bool staged = false;                                   ///< copy through a staging buffer even where memory is mapped (tests)
+  /// "" a GPU before a software driver, "N" by index, else part of the name; kUsage if there is none.
+  std::string select;
+  bool validation = false;  ///< load VK_LAYER_KHRONOS_validation; kUsage if it is not installed
+  /// Takes validation messages (warnings and errors); empty: they go to standard error.
+  std::function<void(const std::string&)> onMessage;
+  bool staged = false;  ///< copy through a staging buffer even where memory is mapped (tests)
 };
 std::unique_ptr<Device> makeVulkanDevice(const VulkanOptions& options = {});
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "host/vulkan/spirv.h"
+#include "host/vulkan/spirv-module.h"
 
 namespace tessera::vulkan {
 namespace {
@@ -13,7 +13,11 @@ constexpr std::string_view kBlockName = "frame";
 void checkCapabilities(const SpirvModule& module, const Adapter& adapter, const std::string& who) {
   const auto& f = adapter.features;
   const auto& f12 = adapter.features12;
-  struct Need { std::uint32_t capability; vk::Bool32 there; const char* what; };
+  struct Need {
+    std::uint32_t capability;
+    vk::Bool32 there;
+    const char* what;
+  };
   const Need needs[] = {
       {10, f.shaderFloat64, "64-bit floats (shaderFloat64)"},
       {11, f.shaderInt64, "64-bit integers (shaderInt64)"},
@@ -26,7 +30,8 @@ void checkCapabilities(const SpirvModule& module, const Adapter& adapter, const 
         failUnsupported(fmt::format("{}: it needs {}, which {} does not have", who, need.what, adapter.name()));
 }
 
-void checkLimits(const SpirvModule& module, std::size_t storageBuffers, const Adapter& adapter, const std::string& who) {
+void checkLimits(const SpirvModule& module, std::size_t storageBuffers, const Adapter& adapter,
+                 const std::string& who) {
   const auto& limits = adapter.properties.limits;
   const auto refuse = [&](const char* what, std::uint64_t needed, std::uint64_t limit) {
     if (needed > limit)
@@ -34,7 +39,8 @@ void checkLimits(const SpirvModule& module, std::size_t storageBuffers, const Ad
   };
   const auto& size = module.localSize;
   refuse("threads a group", std::uint64_t{size[0]} * size[1] * size[2], limits.maxComputeWorkGroupInvocations);
-  for (std::size_t i = 0; i < size.size(); ++i) refuse("threads along a group", size[i], limits.maxComputeWorkGroupSize[i]);
+  for (std::size_t i = 0; i < size.size(); ++i)
+    refuse("threads along a group", size[i], limits.maxComputeWorkGroupSize[i]);
   refuse("bytes of group memory", module.groupMemoryBytes, limits.maxComputeSharedMemorySize);
   refuse("storage buffers", storageBuffers, limits.maxPerStageDescriptorStorageBuffers);
 }
@@ -44,7 +50,7 @@ void checkLimits(const SpirvModule& module, std::size_t storageBuffers, const Ad
 VulkanKernel::VulkanKernel(std::shared_ptr<Machine> machine, const CompiledKernel& compiled) : compiled_(compiled) {
   const std::string who = fmt::format("kernel {}", compiled.stage);
   if (compiled.route == Route::kCpp) fail(who + ": compiled for the CPU, a Vulkan device takes SPIR-V");
-  const SpirvModule module = readSpirv(compiled.binary);
+  const SpirvModule module = readModule(compiled.binary);
 
   std::vector<vk::DescriptorSetLayoutBinding> bindings;
   for (const auto& [name, binding] : compiled.interface.resources) {

@@ -11,14 +11,17 @@ namespace tessera::vulkan {
 
 class VulkanKernel : public Kernel {
  public:
-  struct Resource { std::string name; std::uint32_t binding; };
+  struct Resource {
+    std::string name;
+    std::uint32_t binding;
+  };
   struct Pipeline;  // what the recorded commands need until they have run
 
   /// Throws kUnsupported, naming the feature or limit, when the device cannot run it.
   VulkanKernel(std::shared_ptr<Machine> machine, const CompiledKernel& compiled);
 
   const CompiledKernel& compiled() const override { return compiled_; }
-  const std::vector<Resource>& storage() const { return storage_; }   ///< structured buffers
+  const std::vector<Resource>& storage() const { return storage_; }  ///< structured buffers
   bool hasBlock() const { return hasBlock_; }
   std::uint32_t blockBinding() const { return blockBinding_; }
   const std::shared_ptr<const Pipeline>& pipeline() const { return pipeline_; }

@@ -121,7 +121,8 @@ TEST_CASE("what is recorded runs in order and each dispatch has its own block") 
     // More than one submission holds, so that the recording runs by itself in between.
     for (std::uint32_t i = 0; i < 2500; ++i) {
       const bool first = i % 3 == 0;
-      m.device->dispatch(*kernel, std::array{Binding{"cells", first ? a.get() : b.get()}}, block(*kernel, kCount, i), kGroups);
+      m.device->dispatch(*kernel, std::array{Binding{"cells", first ? a.get() : b.get()}}, block(*kernel, kCount, i),
+                         kGroups);
       for (auto& word : first ? expectedA : expectedB) word = word * 3 + i;
     }
     const Words last{42};
@@ -139,7 +140,8 @@ TEST_CASE("a dispatch sees what other lanes of the one before wrote") {
   const auto scale = m.kernel("scaleAdd"), reverse = m.kernel("reverse");
   const auto from = m.buffer(counted(kCount)), to = m.buffer(Words(kCount));
   m.device->dispatch(*scale, std::array{Binding{"cells", from.get()}}, block(*scale, kCount, 1), kGroups);
-  m.device->dispatch(*reverse, std::array{Binding{"cells", to.get()}, Binding{"source", from.get()}, Binding{"unknown", nullptr}},
+  m.device->dispatch(*reverse,
+                     std::array{Binding{"cells", to.get()}, Binding{"source", from.get()}, Binding{"unknown", nullptr}},
                      block(*reverse, kCount, 0), kGroups);
   Words expected(kCount);
   for (std::uint32_t i = 0; i < kCount; ++i) expected[i] = (kCount - 1 - i) * 3 + 1;
@@ -188,7 +190,7 @@ TEST_CASE("times have one entry a dispatch in order and on one clock") {
   CHECK(times[2].stage == "scaleAdd");
   for (std::size_t i = 0; i < 3; ++i) CHECK(times[i].beginNs <= times[i].endNs);
   for (std::size_t i = 0; i < 2; ++i) CHECK(times[i].endNs <= times[i + 1].beginNs);
-  CHECK(times[0].endNs - times[0].beginNs > 1000);          // a million cells in under a microsecond is no clock
+  CHECK(times[0].endNs - times[0].beginNs > 1000);  // a million cells in under a microsecond is no clock
   CHECK(times[2].endNs - times[0].beginNs < 60'000'000'000);
   CHECK(m.device->takeTimes().empty());
 }
@@ -211,20 +213,24 @@ TEST_CASE("wrong use is one clear line") {
   const auto cells = m.buffer(Words(64));
   const Words word{1};
   fails(ExitCode::kFailure, "kernel scaleAdd: nothing is bound to 'cells'", [&] {
-    m.device->dispatch(*kernel, std::array{Binding{"cell", cells.get()}}, block(*kernel, 64, 1), 1); });
+    m.device->dispatch(*kernel, std::array{Binding{"cell", cells.get()}}, block(*kernel, 64, 1), 1);
+  });
   fails(ExitCode::kFailure, "uniform block of 2 bytes was given, it has", [&] {
-    m.device->dispatch(*kernel, std::array{Binding{"cells", cells.get()}}, std::array<std::byte, 2>{}, 1); });
+    m.device->dispatch(*kernel, std::array{Binding{"cells", cells.get()}}, std::array<std::byte, 2>{}, 1);
+  });
   fails(ExitCode::kUnsupported, "4294967295 groups", [&] {
-    m.device->dispatch(*kernel, std::array{Binding{"cells", cells.get()}}, block(*kernel, 64, 1), ~0u); });
-  fails(ExitCode::kFailure, "write of 4 bytes at 253 of buffer 'words', which has 256", [&] {
-    m.device->write(*cells, 253, std::as_bytes(std::span(word))); });
+    m.device->dispatch(*kernel, std::array{Binding{"cells", cells.get()}}, block(*kernel, 64, 1), ~0u);
+  });
+  fails(ExitCode::kFailure, "write of 4 bytes at 253 of buffer 'words', which has 256",
+        [&] { m.device->write(*cells, 253, std::as_bytes(std::span(word))); });
   fails(ExitCode::kFailure, "fill of 3 bytes at 0", [&] { m.device->fill(*cells, 0, 3, 0); });
   fails(ExitCode::kUnsupported, "buffer 'huge'", [&] { m.device->createBuffer(~std::size_t{0} - 8, "huge"); });
   fails(ExitCode::kUnsupported, "bytes of group memory", [&] { m.kernel("hugeGroupMemory"); });
   fails(ExitCode::kFailure, "not a SPIR-V module", [&] {
     CompiledKernel text = kernel->compiled();
     text.binary = __FILE__;
-    m.device->createKernel(text); });
+    m.device->createKernel(text);
+  });
   // None of it was recorded, and the device goes on.
   m.device->dispatch(*kernel, std::array{Binding{"cells", cells.get()}}, block(*kernel, 64, 1), 1);
   CHECK(m.words(*cells) == Words(64, 1));
@@ -267,7 +273,11 @@ TEST_CASE("adapters are listed and selected by index and by part of the name") {
   for (std::size_t i = 0; i < adapters.size(); ++i) CHECK(adapters[i].index == i);
   const VulkanAdapter& first = adapters[0];
   REQUIRE(first.whyNot.empty());
-  const auto select = [](const std::string& by) { VulkanOptions options; options.select = by; return makeVulkanDevice(options)->info().name; };
+  const auto select = [](const std::string& by) {
+    VulkanOptions options;
+    options.select = by;
+    return makeVulkanDevice(options)->info().name;
+  };
   std::string shouted = first.name.substr(0, 6);
   for (char& c : shouted) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
   CHECK(select("0") == first.name);

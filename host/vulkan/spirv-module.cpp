@@ -1,24 +1,35 @@
-#include "host/vulkan/spirv.h"
+#include "host/vulkan/spirv-module.h"
 
 #include <fmt/format.h>
 
-#include <bit>
 #include <cstring>
-#include <fstream>
 #include <map>
 #include <span>
 
 #include "host/error.h"
+#include "host/spirv.h"
 
 namespace tessera::vulkan {
 namespace {
 
 // Numbers of the SPIR-V specification, section 3.
 enum Op : std::uint32_t {
-  kOpSource = 3, kOpEntryPoint = 15, kOpExecutionMode = 16, kOpCapability = 17, kOpTypeBool = 20, kOpTypeInt = 21, kOpTypeFloat = 22,
-  kOpTypeVector = 23, kOpTypeMatrix = 24, kOpTypeArray = 28, kOpTypeStruct = 30, kOpTypePointer = 32, kOpConstant = 43, kOpVariable = 59
+  kOpSource = 3,
+  kOpEntryPoint = 15,
+  kOpExecutionMode = 16,
+  kOpCapability = 17,
+  kOpTypeBool = 20,
+  kOpTypeInt = 21,
+  kOpTypeFloat = 22,
+  kOpTypeVector = 23,
+  kOpTypeMatrix = 24,
+  kOpTypeArray = 28,
+  kOpTypeStruct = 30,
+  kOpTypePointer = 32,
+  kOpConstant = 43,
+  kOpVariable = 59
 };
-constexpr std::uint32_t kMagic = 0x07230203, kGLCompute = 5, kLocalSize = 17, kWorkgroup = 4;
+constexpr std::uint32_t kGLCompute = 5, kLocalSize = 17, kWorkgroup = 4;
 constexpr std::size_t kHeaderWords = 5;
 
 /// Types and constants seen so far: enough to size group-shared variables.
@@ -27,38 +38,39 @@ struct Sizes {
 
   void see(Op op, std::span<const std::uint32_t> w) {
     switch (op) {
-      case kOpTypeBool: bytes[w[1]] = 4; break;
+      case kOpTypeBool:
+        bytes[w[1]] = 4;
+        break;
       case kOpTypeInt:
-      case kOpTypeFloat: bytes[w[1]] = w[2] / 8; break;
+      case kOpTypeFloat:
+        bytes[w[1]] = w[2] / 8;
+        break;
       case kOpTypeVector:
-      case kOpTypeMatrix: bytes[w[1]] = bytes[w[2]] * w[3]; break;
-      case kOpTypeArray: bytes[w[1]] = bytes[w[2]] * constants[w[3]]; break;
+      case kOpTypeMatrix:
+        bytes[w[1]] = bytes[w[2]] * w[3];
+        break;
+      case kOpTypeArray:
+        bytes[w[1]] = bytes[w[2]] * constants[w[3]];
+        break;
       case kOpTypeStruct:
         for (std::uint32_t member : w.subspan(2)) bytes[w[1]] += bytes[member];
         break;
-      case kOpTypePointer: pointees[w[1]] = w[3]; break;
-      case kOpConstant: constants[w[2]] = w[3]; break;
-      default: break;
+      case kOpTypePointer:
+        pointees[w[1]] = w[3];
+        break;
+      case kOpConstant:
+        constants[w[2]] = w[3];
+        break;
+      default:
+        break;
     }
   }
 };
 
-std::vector<std::uint32_t> readWords(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary | std::ios::ate);
-  if (!file) fail(fmt::format("{}: cannot be read", path.string()));
-  const auto size = static_cast<std::size_t>(file.tellg());
-  std::vector<std::uint32_t> words(size / 4);
-  file.seekg(0);
-  file.read(reinterpret_cast<char*>(words.data()), static_cast<std::streamsize>(words.size() * 4));
-  if (!file || size % 4 != 0 || words.size() < kHeaderWords || words[0] != kMagic)
-    fail(fmt::format("{}: not a SPIR-V module", path.string()));
-  return words;
-}
-
 }  // namespace
 
-SpirvModule readSpirv(const std::filesystem::path& path) {
-  const std::vector<std::uint32_t> source = readWords(path);
+SpirvModule readModule(const std::filesystem::path& path) {
+  const std::vector<std::uint32_t> source = readSpirv(path);
   SpirvModule module;
   module.words.assign(source.begin(), source.begin() + kHeaderWords);
   Sizes sizes;
