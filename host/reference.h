@@ -22,15 +22,23 @@ struct Piece {
   float z[3];
 };
 
+/// A triangle is in at most one of badIndex, nonFinite and outside; a piece in at most one of behind, zeroArea and facing.
 struct Counts {
-  std::uint64_t submitted = 0, badIndex = 0, nonFinite = 0, behind = 0 /* pieces with w <= 0 or 1/w not finite */, zeroArea = 0 /* pieces */,
-      facing = 0 /* pieces */, clipped = 0 /* triangles that crossed a plane */, covered = 0 /* samples, each hit counted */;
+  std::uint64_t submitted = 0;  ///< triangles
+  std::uint64_t badIndex = 0;   ///< triangles with an index out of range
+  std::uint64_t nonFinite = 0;  ///< triangles with a clip coordinate that is not finite
+  std::uint64_t outside = 0;    ///< triangles of which nothing is inside the clip planes
+  std::uint64_t clipped = 0;    ///< triangles with a vertex outside a clip plane, those of `outside` among them
+  std::uint64_t behind = 0;     ///< pieces with a w that is not > 0, a 1/w that is not finite, or a position that overflowed
+  std::uint64_t zeroArea = 0;   ///< pieces
+  std::uint64_t facing = 0;     ///< pieces
+  std::uint64_t covered = 0;    ///< samples, each hit counted
 };
 
 struct Result {
   Framebuffer image;                     ///< depth and ids, in the contract's float32 order; and hits (all vectors are filled)
   Counts counts;
-  double depthMaxAbs = 0;                ///< largest |float32 depth - exact depth| over the visible pixels, exact in 128-bit rationals/floats of the snapped piece
+  double depthMaxAbs = 0;                ///< largest |float32 depth - exact depth of the snapped piece| over the visible pixels
   double depthMaxUlp = 0;                ///< the same in units of the last place of the exact value
 };
 
