@@ -24,6 +24,7 @@ struct DeviceInfo {
   std::uint64_t maxBufferBytes = ~0ull;     ///< largest storage buffer that a kernel can bind
   std::uint32_t maxLoopIterations = ~0u;    ///< per invocation, over all its loops; lavapipe 22.3 drops what is beyond 65,535
   std::uint32_t maxGroupsPerDimension = 65535;
+  std::uint64_t maxGroupBytes = 32768;      ///< group memory a workgroup can have
   std::string timeClock;                    ///< "timestamp" or "wall"
 };
 

@@ -16,8 +16,9 @@
 //                outside end  t = d_in / (d_in - d_out),  p = p_in + t (p_out - p_in)  for x, y, z, w, and then the clipped
 //                coordinate is set exactly (z = 0;  z = w;  x = -(Gx w);  x = Gx w;  likewise y). The polygon v0 v1 ... is fanned:
 //                (v0, v1, v2), (v0, v2, v3), ...
-//   Project      r = 1/w. A piece with a vertex whose w is not > 0 or whose r is not finite is dropped and counted. sx = (x r)(W/2) + W/2,
-//                sy = (y r)(H/2) + H/2;  depth z r clamped: (z r > 0) ? ((z r < 1) ? z r : 1) : +0.
+//   Project      r = 1/w. A piece with a vertex whose w is not > 0, whose r is not finite or whose snapped X or Y is not within 2^24 either
+//                way (the guard band keeps them there, unless clipping overflowed float32) is dropped and counted as behind.
+//                sx = (x r)(W/2) + W/2,  sy = (y r)(H/2) + H/2;  depth z r clamped: (z r > 0) ? ((z r < 1) ? z r : 1) : +0.
 //   Snap         X = sx * 256 to the nearest integer, ties to even: n = floor(s), d = s - n, n + 1 if d > 1/2 or d = 1/2 and n odd.
 //   Orient       area2 = (X1 - X0)(Y2 - Y0) - (X2 - X0)(Y1 - Y0), exact. 0 is dropped. Negative is front (counter-clockwise on
 //                the screen) and vertices 1 and 2 are swapped; what follows sees area2 > 0.
@@ -41,6 +42,7 @@
 #include <string>
 #include <vector>
 
+#include "host/counters.h"
 #include "host/device.h"
 #include "host/framebuffer.h"
 #include "host/plan.h"
@@ -51,7 +53,7 @@ namespace tessera {
 
 class KernelCache;
 
-/// What a frame counted, by name; the names and their meanings are listed by counterDocs().
+/// What a frame counted, by name; counterDocs() lists the names and their meanings.
 using Counters = std::map<std::string, std::uint64_t>;
 
 struct FrameTimes {
@@ -59,16 +61,26 @@ struct FrameTimes {
   std::vector<std::pair<std::string, std::uint64_t>> stages;     ///< summed by stage, in pipeline order
 };
 
+/// What a stage wrote, in an order that does not depend on scheduling, so that two devices can be compared stage by stage.
+struct StageOutput {
+  std::string stage;
+  std::string element;             ///< what one element is
+  std::size_t words = 1;           ///< 32-bit words an element
+  std::vector<std::uint32_t> values;
+};
+
 struct Frame {
   Framebuffer image;
   Counters counters;
   FrameTimes times;
   Plan plan;                       ///< what ran, what was left out, why
+  std::vector<StageOutput> stages; ///< in pipeline order; only of frames that ran in one band and one batch
 };
 
 struct FrameOptions {
   bool readBack = true;            ///< fill Frame::image
   bool countWork = false;          ///< also count tests, covered samples and atomics (slower kernels)
+  bool keepStages = false;         ///< fill Frame::stages
 };
 
 /// Renders scenes on one device. Keeps kernels and buffers between frames.
@@ -85,8 +97,5 @@ class Rasterizer {
   struct State;
   std::unique_ptr<State> state_;
 };
-
-/// Name and meaning of each counter, in pipeline order.
-const std::vector<std::pair<std::string, std::string>>& counterDocs();
 
 }  // namespace tessera

@@ -31,6 +31,8 @@ struct Axis {
   std::vector<AxisValue> values;         ///< empty: an integer from `least` to `most`
   long least = 0, most = 0;
   std::string unset;                     ///< what the plan chooses when it is not set, in words
+
+  AxisKind kind() const;                 ///< implementation where any value is; its other values say so themselves
 };
 
 /// All axes, in pipeline order.

@@ -1,0 +1,26 @@
+// The stages of the pipeline and the kernels that run them.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "host/kernel-cache.h"
+#include "host/plan.h"
+
+namespace tessera {
+
+struct Stage {
+  std::string name;     ///< as in Axis::stages, in plans, times and messages
+  std::string source;   ///< under slang/
+  std::string entry;
+};
+
+/// All stages, in pipeline order.
+const std::vector<Stage>& stages();
+/// The stages that a plan dispatches, retries among them.
+std::vector<std::string> stagesOf(const Plan& plan);
+/// What to compile for one stage of a plan.
+KernelRequest kernelRequest(std::string_view stage, const Plan& plan);
+
+}  // namespace tessera
