@@ -48,7 +48,7 @@ std::string firstError(const std::string& output) {
       place = line.substr(arrow + 4);
     } else if (const std::size_t caret = line.find('^'); caret != std::string::npos) {
       const std::string message = trimmed(line.substr(caret));
-      return fmt::format("{}: {}{}", place, title, message.empty() ? "" : ": " + message);
+      return fmt::format("{}: {}", place, message.empty() ? title : title.substr(0, title.find(':') + 1) + " " + message);
     }
   }
   if (!title.empty()) return place.empty() ? title : place + ": " + title;

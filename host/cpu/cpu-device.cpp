@@ -144,7 +144,7 @@ class CpuDevice final : public Device {
     if (bytes % 4 != 0 || offset % 4 != 0) fail(fmt::format("cpu: fill of {} bytes at {}: both are multiples of 4", bytes, offset));
     auto* words = reinterpret_cast<std::uint32_t*>(slice(buffer, offset, bytes, "fill"));
     const std::size_t count = bytes / 4, piece = kFillPiece / 4;
-    spread(*crew_, static_cast<std::uint32_t>((count + piece - 1) / piece), ~0u, [&](std::uint32_t begin, std::uint32_t end) {
+    spread(*crew_, static_cast<std::uint32_t>((count + piece - 1) / piece), [&](std::uint32_t begin, std::uint32_t end) {
       std::fill(words + begin * piece, words + std::min(count, end * piece), value);
     });
   }
@@ -157,7 +157,7 @@ class CpuDevice final : public Device {
     fillGlobals(cpu->compiled(), bindings, block, globals, frame);
     const std::uint64_t begin = nowNs();
     try {
-      if (shuffleSeed_ == 0) spread(*crew_, groups, ~0u, [&](std::uint32_t first, std::uint32_t last) { cpu->run(first, last, globals); });
+      if (shuffleSeed_ == 0) spread(*crew_, groups, [&](std::uint32_t first, std::uint32_t last) { cpu->run(first, last, globals); });
       else runShuffled(*cpu, groups, globals);
     } catch (const std::out_of_range& error) {  // Slang's bounds checks, where they are compiled in
       fail(fmt::format("cpu: kernel {}: out of bounds: {}", cpu->compiled().stage, error.what()));
@@ -205,7 +205,9 @@ class CpuDevice final : public Device {
     std::iota(order.begin(), order.end(), 0u);
     std::mt19937_64 random(shuffleSeed_ + 0x9e3779b97f4a7c15u * ++dispatches_);
     for (std::uint32_t i = groups; i > 1; --i) std::swap(order[i - 1], order[random() % i]);
-    spread(*crew_, groups, 1, [&](std::uint32_t first, std::uint32_t) { kernel.run(order[first], order[first] + 1, globals); });
+    spread(*crew_, groups, [&](std::uint32_t first, std::uint32_t last) {
+      for (std::uint32_t i = first; i < last; ++i) kernel.run(order[i], order[i] + 1, globals);
+    });
   }
 
   DeviceInfo info_;

@@ -28,7 +28,6 @@ class TbbCrew final : public Crew {
   }
   unsigned threads() const override { return static_cast<unsigned>(arena_.max_concurrency()); }
   void run(const std::function<void()>& work) override {
-    if (threads() == 1) return work();
     arena_.execute([&] { tbb::parallel_for(0u, threads(), [&](unsigned) { work(); }, tbb::simple_partitioner()); });
   }
 
@@ -103,27 +102,25 @@ class ExactFloats {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::microseconds kPieceTime{10};  // hand-out and clock cost about 50 ns: half a percent of it
-constexpr std::chrono::microseconds kAloneTime{20};  // waking another thread costs 5 to 50 us: small dispatches do without
 
 }  // namespace
 
 std::unique_ptr<Crew> makeTbbCrew(unsigned threads) { return std::make_unique<TbbCrew>(threads); }
 std::unique_ptr<Crew> makePlainCrew(unsigned threads) { return std::make_unique<PlainCrew>(threads); }
 
-void spread(Crew& crew, std::uint32_t count, std::uint32_t largestPiece, const std::function<void(std::uint32_t, std::uint32_t)>& body) {
-  std::atomic<std::uint64_t> next{0};
+void spread(Crew& crew, std::uint32_t count, const std::function<void(std::uint32_t, std::uint32_t)>& body) {
+  std::atomic<std::uint64_t> next{0};  // 64 bits: every thread may add a piece once all is handed out
   std::mutex failureMutex;
   std::exception_ptr failure;
   const unsigned threads = crew.threads();
-  const auto drain = [&](Clock::duration limit) {
+  const auto drain = [&] {
     const ExactFloats exact;
-    const Clock::time_point start = Clock::now();
-    Clock::time_point before = start;
-    for (std::uint64_t piece = 1; before - start < limit;) {
-      // Towards the end a piece is at most a thread's share of what is left.
+    Clock::time_point before = Clock::now();
+    for (std::uint64_t piece = 1;;) {
       const std::uint64_t done = next.load(std::memory_order_relaxed);
       if (done >= count) return;
-      piece = std::clamp<std::uint64_t>(piece, 1, std::min<std::uint64_t>(largestPiece, (count - done) / (2 * threads) + 1));
+      // Towards the end a piece is at most half a thread's share of what is left.
+      piece = std::clamp<std::uint64_t>(piece, 1, (count - done) / (2 * threads) + 1);
       const std::uint64_t begin = next.fetch_add(piece, std::memory_order_relaxed);
       if (begin >= count) return;
       try {
@@ -138,8 +135,8 @@ void spread(Crew& crew, std::uint32_t count, std::uint32_t largestPiece, const s
       before = now;
     }
   };
-  drain(threads > 1 ? Clock::duration(kAloneTime) : Clock::duration::max());
-  if (next < count) crew.run([&] { drain(Clock::duration::max()); });
+  if (count == 1 || threads == 1) drain();
+  else if (count != 0) crew.run(drain);
   if (failure) std::rethrow_exception(failure);
 }
 
