@@ -21,6 +21,11 @@
 namespace tessera {
 namespace {
 
+#ifdef TESSERA_PLAIN_THREADS
+constexpr bool kPlainThreads = true;  // the thread sanitizer cannot see into oneTBB
+#else
+constexpr bool kPlainThreads = false;
+#endif
 constexpr std::size_t kCacheLine = 64;
 constexpr std::size_t kHugePage = 2u << 20;
 constexpr std::size_t kFillPiece = 64u << 10;  // bytes a piece of a fill
@@ -118,7 +123,7 @@ std::uint64_t nowNs() {
 class CpuDevice final : public Device {
  public:
   explicit CpuDevice(const CpuOptions& options)
-      : shuffleSeed_(options.shuffleSeed), crew_(options.plainThreads ? makePlainCrew(options.threads) : makeTbbCrew(options.threads)) {
+      : shuffleSeed_(options.shuffleSeed), crew_(options.plainThreads || kPlainThreads ? makePlainCrew(options.threads) : makeTbbCrew(options.threads)) {
     info_.api = "cpu";
     info_.name = processorName();
     info_.driver = cpuDriverText();
