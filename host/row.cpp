@@ -21,8 +21,8 @@ using Json = nlohmann::ordered_json;
 
 /// A version 7 UUID (RFC 9562): 48 bits of milliseconds, then random ones, so that ids sort by time.
 std::string makeRunId(std::chrono::system_clock::time_point now) {
-  const auto ms = static_cast<std::uint64_t>(
-      std::chrono::duration_cast<std::chrono::milliseconds>(now.time_since_epoch()).count());
+  const auto ms =
+      static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::milliseconds>(now.time_since_epoch()).count());
   std::random_device random;
   const auto bits = [&](unsigned count) { return random() & ((1u << count) - 1); };
   return fmt::format("{:08x}-{:04x}-7{:03x}-{:04x}-{:04x}{:08x}", (ms >> 16) & 0xffffffffu, ms & 0xffffu, bits(12),
@@ -55,8 +55,8 @@ Json timeJson(const Run& run) {
   const Spread total = totalSpread(run.samples);
   Json stages = Json::object();
   for (const auto& [stage, median] : stageMedians(run.samples)) stages[stage] = median;
-  return {{"samples", totals}, {"median", total.median}, {"min", total.min}, {"iqr", total.iqr},
-          {"stages", stages}, {"clock", run.device.timeClock}};
+  return {{"samples", totals}, {"median", total.median}, {"min", total.min},
+          {"iqr", total.iqr},  {"stages", stages},       {"clock", run.device.timeClock}};
 }
 
 Json errorJson(const Difference& difference) {
@@ -67,7 +67,7 @@ Json errorJson(const Difference& difference) {
                {"hit_count_mismatch", difference.hits},
                {"depth_max_ulp", difference.depthMaxUlp},
                {"depth_max_abs", difference.depthMaxAbs}};
-  if (std::isfinite(difference.psnr)) json["psnr"] = difference.psnr;   // JSON has no infinity
+  if (std::isfinite(difference.psnr)) json["psnr"] = difference.psnr;  // JSON has no infinity
   return json;
 }
 
@@ -79,15 +79,19 @@ Json planJson(const std::vector<PlanEntry>& entries) {
 
 Json provenanceJson(const Run& run, std::chrono::system_clock::time_point now) {
   const std::string git = TESSERA_GIT;
-  Json json = {{"git", git}, {"dirty", git.ends_with("-dirty")}, {"build_type", TESSERA_BUILD_TYPE}, {"compiler", TESSERA_COMPILER},
+  Json json = {{"git", git},
+               {"dirty", git.ends_with("-dirty")},
+               {"build_type", TESSERA_BUILD_TYPE},
+               {"compiler", TESSERA_COMPILER},
                {"flags", TESSERA_CXX_FLAGS_TEXT}};
   if (!run.slang.empty()) json["slang"] = run.slang;
   if (!run.kernelCompiler.empty()) json["kernel_compiler"] = run.kernelCompiler;
+  if (!run.kernels.empty()) json["kernels"] = run.kernels;
   json["device"] = run.device.name;
   json["driver"] = run.device.driver;
   json["api"] = run.device.api;
   if (run.device.threads != 0) json["threads"] = run.device.threads;
-  if (run.device.correctnessOnly) json["correctness_only"] = true;   // a software driver: its times rank nothing
+  if (run.device.correctnessOnly) json["correctness_only"] = true;  // a software driver: its times rank nothing
   json["os"] = osName();
   json["cpu"] = cpuName();
   json["utc"] = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::chrono::system_clock::to_time_t(now)));
@@ -129,9 +133,10 @@ std::vector<std::pair<std::string, double>> stageMedians(const std::vector<Frame
 }
 
 std::uint64_t coveredPixels(const Framebuffer& frame) {
-  const auto count = frame.ids.empty()
-                         ? std::count_if(frame.hits.begin(), frame.hits.end(), [](std::uint32_t hits) { return hits != 0; })
-                         : std::count_if(frame.ids.begin(), frame.ids.end(), [](std::uint32_t id) { return id != kNoTriangle; });
+  const auto count =
+      frame.ids.empty()
+          ? std::count_if(frame.hits.begin(), frame.hits.end(), [](std::uint32_t hits) { return hits != 0; })
+          : std::count_if(frame.ids.begin(), frame.ids.end(), [](std::uint32_t id) { return id != kNoTriangle; });
   return static_cast<std::uint64_t>(count);
 }
 

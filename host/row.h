@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,24 +19,27 @@ inline constexpr int kRowSchemaVersion = 1;
 
 /// What a run leaves behind. A member that is empty leaves its field out of the row.
 struct Run {
-  std::string status = "ok";               ///< ok, overflow, unsupported or error
-  std::string message;                     ///< one line: why the status is not ok
-  Variant variant;                         ///< resolved by the plan where there is one, else as it was asked for
+  std::string status = "ok";  ///< ok, overflow, unsupported or error
+  std::string message;        ///< one line: why the status is not ok
+  Variant variant;            ///< resolved by the plan where there is one, else as it was asked for
   const Scene* scene = nullptr;
   DeviceInfo device;
-  std::vector<FrameTimes> samples;         ///< one a timed frame, raw
-  std::optional<Difference> difference;    ///< from the oracle
+  std::vector<FrameTimes> samples;       ///< one a timed frame, raw
+  std::optional<Difference> difference;  ///< from the oracle
   Counters counters;
   std::vector<PlanEntry> plan;
-  std::string slang;                       ///< version of the slangc in use
-  std::string kernelCompiler;              ///< C++ compiler of the CPU's kernels, with flags and target
+  std::string slang;                           ///< version of the slangc in use
+  std::string kernelCompiler;                  ///< C++ compiler of the CPU's kernels, with flags and target
+  std::map<std::string, std::string> kernels;  ///< stage -> content hash
   std::uint64_t peakBufferBytes = 0;
 };
 
 /// Order statistics of a sample, linear between neighbours; nanoseconds. All 0 for an empty sample.
-struct Spread { double median = 0, min = 0, iqr = 0; };
+struct Spread {
+  double median = 0, min = 0, iqr = 0;
+};
 Spread spread(std::vector<std::uint64_t> sample);
-Spread totalSpread(const std::vector<FrameTimes>& samples);   ///< of the frames' total times
+Spread totalSpread(const std::vector<FrameTimes>& samples);  ///< of the frames' total times
 /// Median time of each stage over the frames, in the order of the first frame's stages.
 std::vector<std::pair<std::string, double>> stageMedians(const std::vector<FrameTimes>& samples);
 /// Pixels that a triangle covers, in whichever of ids and hits the frame holds.

@@ -6,11 +6,11 @@
 
 #include <charconv>
 #include <cstdio>
-#include <fstream>
 
 #include "datasets/input.h"
 #include "host/cpu/cpu-device.h"
 #include "host/error.h"
+#include "host/files.h"
 #include "host/vulkan/vulkan-device.h"
 
 namespace tessera::cli {
@@ -18,7 +18,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Size { std::uint32_t width, height; };
+struct Size {
+  std::uint32_t width, height;
+};
 
 Size parseSize(const std::string& text) {
   Size size{};
@@ -31,25 +33,37 @@ Size parseSize(const std::string& text) {
   }
   const auto inRange = [](std::uint32_t extent) { return extent >= 1 && extent <= kMaxExtent; };
   if (!good || !inRange(size.width) || !inRange(size.height))
-    failUsage(fmt::format("--size {}: not a raster size; WIDTHxHEIGHT with 1 to {} pixels each, e.g. 2048x1024, would be", text, kMaxExtent));
+    failUsage(
+        fmt::format("--size {}: not a raster size; WIDTHxHEIGHT with 1 to {} pixels each, e.g. 2048x1024, would be",
+                    text, kMaxExtent));
   return size;
 }
 
 }  // namespace
 
 void addInput(CLI::App& app, Options& options) {
-  app.add_option("INPUT", options.input, "a mesh (.obj .off .ply .stl), a generator, a scene (.toml) or a replay file (.replay)")->required();
+  app.add_option("INPUT", options.input,
+                 "a mesh (.obj .off .ply .stl), a generator, a scene (.toml) or a replay file (.replay)")
+      ->required();
   app.add_option("--size", options.size, "raster size in pixels; the scene's own if not given")->type_name("WxH");
 }
 
 void addSettings(CLI::App& app, Options& options) {
   app.add_option("--set", options.settings, "fix one axis; repeat for more; what is not set is the plan's choice")
-      ->type_name("AXIS=VALUE")->allow_extra_args(false);
+      ->type_name("AXIS=VALUE")
+      ->allow_extra_args(false);
 }
 
 void addThreads(CLI::App& app, Options& options) {
   app.add_option("--threads", options.threads, "threads of the CPU device; all cores if not given")
-      ->type_name("N")->check(CLI::Range(1, 4096));
+      ->type_name("N")
+      ->check(CLI::Range(1, 4096));
+}
+
+void addRepeat(CLI::App& app, unsigned& repeat) {
+  app.add_option("--repeat", repeat, "time N frames after one that warms up; without it the one frame is timed")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1000000));
 }
 
 void addDevice(CLI::App& app, Options& options, bool many) {
@@ -84,7 +98,8 @@ std::unique_ptr<Device> openDevice(const std::string& name, unsigned threads) {
 
 std::unique_ptr<Device> openDevice(const Options& options) {
   const std::string name = options.devices.empty() ? "cpu" : options.devices.front();
-  if (options.threads != 0 && name.starts_with("vulkan")) failUsage("--threads: only the CPU device takes it; --device cpu would");
+  if (options.threads != 0 && name.starts_with("vulkan"))
+    failUsage("--threads: only the CPU device takes it; --device cpu would");
   return openDevice(name, options.threads);
 }
 
@@ -105,7 +120,8 @@ std::string axesHelp() {
   for (const auto& axis : axes()) {
     std::vector<std::string> values;
     for (const auto& value : axis.values) values.push_back(value.name);
-    const std::string range = values.empty() ? fmt::format("{} to {}", axis.least, axis.most) : fmt::format("{}", fmt::join(values, ", "));
+    const std::string range =
+        values.empty() ? fmt::format("{} to {}", axis.least, axis.most) : fmt::format("{}", fmt::join(values, ", "));
     text += fmt::format("  {:<14} {}\n", axis.name, range);
   }
   return text;
@@ -113,18 +129,22 @@ std::string axesHelp() {
 
 std::string inputHelp() {
   std::string text = "Generators (INPUT is generate:NAME or generate:NAME?KEY=VALUE&KEY=VALUE):\n";
-  for (const auto& doc : generatorDocs()) text += fmt::format("  {:<10} {}\n  {:<10} {}\n", doc.name, doc.makes, "", doc.parameters);
+  for (const auto& doc : generatorDocs())
+    text += fmt::format("  {:<10} {}\n  {:<10} {}\n", doc.name, doc.makes, "", doc.parameters);
   return text;
 }
 
-void checkTextPath(const fs::path& path, const std::string& input) {
+void checkOutputPath(const fs::path& path, const std::string& input) {
   if (path == "-") return;
   const fs::path folder = path.has_parent_path() ? path.parent_path() : ".";
   std::error_code ignored;
   if (fs::is_directory(path, ignored)) failUsage(fmt::format("{}: is a folder; a file name would do", path.string()));
-  if (!fs::is_directory(folder, ignored)) failUsage(fmt::format("{}: the folder {} does not exist", path.string(), folder.string()));
-  if (access(folder.c_str(), W_OK) != 0) failUsage(fmt::format("{}: the folder {} cannot be written", path.string(), folder.string()));
-  if (fs::equivalent(path, input, ignored)) failUsage(fmt::format("{}: is the input; another name would keep it", path.string()));
+  if (!fs::is_directory(folder, ignored))
+    failUsage(fmt::format("{}: the folder {} does not exist", path.string(), folder.string()));
+  if (access(folder.c_str(), W_OK) != 0)
+    failUsage(fmt::format("{}: the folder {} cannot be written", path.string(), folder.string()));
+  if (fs::equivalent(path, input, ignored))
+    failUsage(fmt::format("{}: is the input; another name would keep it", path.string()));
 }
 
 void writeText(const fs::path& path, const std::string& text) {
@@ -132,17 +152,7 @@ void writeText(const fs::path& path, const std::string& text) {
     std::fputs(text.c_str(), stdout);
     return;
   }
-  const fs::path beside = fmt::format("{}.{}.tmp", path.string(), getpid());
-  std::error_code failed;
-  std::ofstream file(beside, std::ios::binary);
-  file << text;
-  file.close();
-  if (file) fs::rename(beside, path, failed);
-  if (!file || failed) {
-    std::error_code ignored;
-    fs::remove(beside, ignored);
-    fail(fmt::format("{}: could not be written ({})", path.string(), failed ? failed.message() : "is the disk full?"));
-  }
+  if (!writeBeside(path, text)) fail(fmt::format("{}: could not be written", path.string()));
 }
 
 }  // namespace tessera::cli

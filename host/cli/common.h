@@ -17,15 +17,16 @@ namespace tessera::cli {
 /// Options as they were typed. Each command adds those that it takes.
 struct Options {
   std::string input;
-  std::string size;                     ///< "WxH"; empty: the scene's
-  std::vector<std::string> settings;    ///< "axis=value"
-  std::vector<std::string> devices;     ///< "cpu", "vulkan", "vulkan:N", "vulkan:NAME"
-  unsigned threads = 0;                 ///< of the CPU device; 0: all cores
+  std::string size;                   ///< "WxH"; empty: the scene's
+  std::vector<std::string> settings;  ///< "axis=value"
+  std::vector<std::string> devices;   ///< "cpu", "vulkan", "vulkan:N", "vulkan:NAME"
+  unsigned threads = 0;               ///< of the CPU device; 0: all cores
 };
 
 void addInput(CLI::App& app, Options& options);
 void addSettings(CLI::App& app, Options& options);
 void addThreads(CLI::App& app, Options& options);
+void addRepeat(CLI::App& app, unsigned& repeat);
 /// `many`: the option may be repeated.
 void addDevice(CLI::App& app, Options& options, bool many);
 
@@ -44,8 +45,8 @@ Route routeOf(const DeviceInfo& device, const Variant& variant);
 std::string axesHelp();
 std::string inputHelp();
 
-/// Refuses a text file that could not be written, or that is the input itself; called before any work. "-" is stdout.
-void checkTextPath(const std::filesystem::path& path, const std::string& input);
+/// Refuses a file that could not be written, or that is the input itself; called before any work. "-" is stdout.
+void checkOutputPath(const std::filesystem::path& path, const std::string& input);
 /// Written beside the name and renamed; "-" is stdout.
 void writeText(const std::filesystem::path& path, const std::string& text);
 

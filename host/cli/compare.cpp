@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "host/cli/commands.h"
+#include "host/cli/common.h"
 #include "host/cli/difference.h"
 
 namespace tessera::cli {
@@ -15,12 +16,16 @@ struct CompareOptions {
 };
 
 ExitCode runCompare(const CompareOptions& options) {
-  if (!options.output.empty()) checkImagePath(options.output);
+  if (!options.output.empty()) {
+    checkImagePath(options.output);
+    for (const auto& input : {options.a, options.b}) checkOutputPath(options.output, input);
+  }
   const Framebuffer a = readImage(options.a);
   const Framebuffer b = readImage(options.b);
   const Difference difference = compare(a, b);
   if (!options.output.empty()) {
-    Framebuffer picture{.width = a.width, .height = a.height, .depth = {}, .ids = {}, .hits = {}, .colour = differencePicture(a, b)};
+    Framebuffer picture{
+        .width = a.width, .height = a.height, .depth = {}, .ids = {}, .hits = {}, .colour = differencePicture(a, b)};
     writeImage(options.output, picture);
   }
   fmt::print("{}", describe(difference));
@@ -33,7 +38,8 @@ ExitCode runCompare(const CompareOptions& options) {
 
 Command addCompare(CLI::App& app) {
   auto options = std::make_shared<CompareOptions>();
-  auto* const command = app.add_subcommand("compare", "compare two .exr images bit by bit; exit code 5 when they differ");
+  auto* const command =
+      app.add_subcommand("compare", "compare two .exr images bit by bit; exit code 5 when they differ");
   command->add_option("A", options->a, "an .exr that render wrote")->required();
   command->add_option("B", options->b, "another of the same size")->required();
   command->add_option("-o,--output", options->output, "a picture of where they differ")->type_name("FILE.png");

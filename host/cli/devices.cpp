@@ -25,7 +25,10 @@ std::string probeCell(Device& device, KernelCache* kernels, Route route, std::st
     for (const auto& result : probe.results)
       if (!result.passed || !result.required)
         notes += fmt::format("{} ({}): {} {}{}\n", name, routeName(route), result.name,
-                             result.passed ? "" : result.required ? "FAILED: " : "differs: ", result.detail);
+                             result.passed     ? ""
+                             : result.required ? "FAILED: "
+                                               : "differs: ",
+                             result.detail);
     return probe.passed() ? "passed" : "FAILED";
   } catch (const Error& error) {
     notes += fmt::format("{} ({}): the probe could not run: {}\n", name, routeName(route), error.what());
@@ -42,9 +45,11 @@ void addDeviceRow(Rows& rows, const std::string& name, KernelCache* kernels, std
   const DeviceInfo& info = device->info();
   const bool cpu = info.api == "cpu";
   const std::string first = probeCell(*device, kernels, cpu ? Route::kCpp : Route::kSpirv, notes, name);
-  const std::string probe = cpu ? first : fmt::format("spirv {}, glsl {}", first, probeCell(*device, kernels, Route::kGlsl, notes, name));
-  rows.push_back({name, info.name, info.driver, yesNo(info.int64), yesNo(info.atomicMin64), byteSize(info.maxBufferBytes),
-                  limitText(info.maxLoopIterations), limitText(info.maxGroupsPerDimension), info.timeClock, probe});
+  const std::string probe =
+      cpu ? first : fmt::format("spirv {}, glsl {}", first, probeCell(*device, kernels, Route::kGlsl, notes, name));
+  rows.push_back({name, info.name, info.driver, yesNo(info.int64), yesNo(info.atomicMin64),
+                  byteSize(info.maxBufferBytes), byteSize(info.maxGroupBytes), limitText(info.maxLoopIterations),
+                  limitText(info.maxGroupsPerDimension), info.timeClock, probe});
   if (info.correctnessOnly) notes += fmt::format("{}: a software driver; its times say nothing about a GPU\n", name);
 }
 
@@ -54,13 +59,14 @@ ExitCode runDevices() {
   try {
     kernels = std::make_unique<KernelCache>();
     const ToolInfo& slangc = kernels->slangc();
-    compilers = fmt::format("slangc   {} {} (from {})\nC++      {}\nkernels  {}\n", slangc.version, slangc.path.string(), slangc.origin,
-                            kernels->cxx(), kernels->folder().string());
+    compilers = fmt::format("slangc   {} {} (from {})\nC++      {}\nkernels  {}\n", slangc.version,
+                            slangc.path.string(), slangc.origin, kernels->cxx(), kernels->folder().string());
   } catch (const Error& error) {
     kernels.reset();
     compilers = fmt::format("no kernel can be compiled here: {}\n", error.what());
   }
-  Rows rows{{"device", "name", "driver", "int64", "atomic64", "buffer", "loop", "groups", "clock", "probe"}};
+  Rows rows{
+      {"device", "name", "driver", "int64", "atomic64", "buffer", "group memory", "loop", "groups", "clock", "probe"}};
   std::string notes;
   const auto names = presentDevices();
   {
@@ -71,7 +77,9 @@ ExitCode runDevices() {
     }
   }
   for (const auto& adapter : listVulkanAdapters())
-    if (!adapter.whyNot.empty()) notes += fmt::format("vulkan:{} {} ({}): cannot be used: {}\n", adapter.index, adapter.name, adapter.driver, adapter.whyNot);
+    if (!adapter.whyNot.empty())
+      notes += fmt::format("vulkan:{} {} ({}): cannot be used: {}\n", adapter.index, adapter.name, adapter.driver,
+                           adapter.whyNot);
   if (rows.size() == 2 && notes.find("vulkan:") == std::string::npos) notes += "no Vulkan device was found\n";
   fmt::print("{}\n{}{}{}", table(rows), notes, notes.empty() ? "" : "\n", compilers);
   return ExitCode::kDone;
@@ -80,9 +88,12 @@ ExitCode runDevices() {
 }  // namespace
 
 Command addDevices(CLI::App& app) {
-  auto* const command = app.add_subcommand("devices", "list the devices here, their limits and the verdict of the arithmetic probe");
-  command->footer("buffer: largest storage buffer; loop: iterations that one invocation can run; groups: workgroups in a dimension.\n"
-                  "Parity of images is claimed where the probe passes.");
+  auto* const command =
+      app.add_subcommand("devices", "list the devices here, their limits and the verdict of the arithmetic probe");
+  command->footer(
+      "buffer: largest storage buffer; loop: iterations that one invocation can run; groups: workgroups in a "
+      "dimension.\n"
+      "Parity of images is claimed where the probe passes.");
   return {command, runDevices};
 }
 

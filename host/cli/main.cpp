@@ -22,7 +22,8 @@ ExitCode complain(ExitCode code, std::string line) {
 ExitCode runCommand(int argc, char** argv) {
   CLI::App app{"Tessera rasterises triangles in compute shaders, with the same bits on every device."};
   app.name("tessera");
-  app.set_version_flag("--version", fmt::format("tessera {} ({}, {})", TESSERA_VERSION, TESSERA_GIT, TESSERA_BUILD_TYPE));
+  app.set_version_flag("--version",
+                       fmt::format("tessera {} ({}, {})", TESSERA_VERSION, TESSERA_GIT, TESSERA_BUILD_TYPE));
   app.require_subcommand(1);
   app.footer(
       "Examples:\n"
@@ -34,10 +35,12 @@ ExitCode runCommand(int argc, char** argv) {
       "this variant; 5 compare or parity found a difference; 1 anything else.");
   const std::array commands{cli::addRender(app),  cli::addParity(app),   cli::addCompare(app), cli::addPlan(app),
                             cli::addDevices(app), cli::addVariants(app), cli::addKernels(app)};
+  if (argc > 1 && argv[1][0] != '-' && !app.get_subcommand_no_throw(argv[1]))
+    return complain(ExitCode::kUsage, fmt::format("{}: no such command; 'tessera --help' lists them", argv[1]));
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error), ExitCode::kDone;   // --help, --version
+    if (error.get_exit_code() == 0) return app.exit(error), ExitCode::kDone;  // --help, --version
     return complain(ExitCode::kUsage, fmt::format("{}; 'tessera --help' shows the usage", error.what()));
   }
   for (const auto& command : commands)
@@ -51,7 +54,8 @@ int main(int argc, char** argv) {
   ExitCode code = ExitCode::kDone;
   try {
     code = runCommand(argc, argv);
-    if (std::fflush(stdout) != 0 || std::ferror(stdout)) code = complain(ExitCode::kFailure, "stdout: the output could not be written");
+    if (std::fflush(stdout) != 0 || std::ferror(stdout))
+      code = complain(ExitCode::kFailure, "stdout: the output could not be written");
   } catch (const Error& error) {
     code = complain(error.code(), error.what());
   } catch (const std::bad_alloc&) {

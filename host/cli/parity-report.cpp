@@ -23,9 +23,9 @@ std::string verdictTable(const std::vector<Outcome>& outcomes) {
     const Difference difference = outcome.run.difference.value_or(Difference{});
     const auto count = [&](std::uint64_t n) { return outcome.run.difference ? grouped(n) : "-"; };
     const char* const probe = outcome.probe.results.empty() ? "not run" : outcome.probe.passed() ? "passed" : "FAILED";
-    rows.push_back({outcome.attempt.device, outcome.attempt.route, outcome.run.device.name, probe, count(outcome.covered),
-                    count(difference.coverage), count(difference.id), count(difference.depth), count(difference.hits),
-                    count(difference.colour), verdictText(outcome.verdict())});
+    rows.push_back({outcome.attempt.device, outcome.attempt.route, outcome.run.device.name, probe,
+                    count(outcome.covered), count(difference.coverage), count(difference.id), count(difference.depth),
+                    count(difference.hits), count(difference.colour), verdictText(outcome.verdict())});
   }
   return table(rows);
 }
@@ -35,17 +35,20 @@ std::string timesTable(const std::vector<Outcome>& outcomes) {
   Rows rows{{"ms"}};
   for (const auto& outcome : outcomes)
     for (const auto& [stage, median] : stageMedians(outcome.run.samples))
-      if (std::none_of(rows.begin() + 1, rows.end(), [&](const auto& row) { return row[0] == stage; })) rows.push_back({stage});
+      if (std::none_of(rows.begin() + 1, rows.end(), [&](const auto& row) { return row[0] == stage; }))
+        rows.push_back({stage});
   for (const auto& outcome : outcomes) {
     rows[0].push_back(outcome.attempt.name());
     const auto medians = stageMedians(outcome.run.samples);
     for (auto row = rows.begin() + 1; row != rows.end(); ++row) {
-      const auto found = std::find_if(medians.begin(), medians.end(), [&](const auto& entry) { return entry.first == row->front(); });
+      const auto found =
+          std::find_if(medians.begin(), medians.end(), [&](const auto& entry) { return entry.first == row->front(); });
       row->push_back(found == medians.end() ? "-" : milliseconds(found->second));
     }
   }
   rows.push_back({"frame"});
-  for (const auto& outcome : outcomes) rows.back().push_back(outcome.run.samples.empty() ? "-" : milliseconds(totalSpread(outcome.run.samples).median));
+  for (const auto& outcome : outcomes)
+    rows.back().push_back(outcome.run.samples.empty() ? "-" : milliseconds(totalSpread(outcome.run.samples).median));
   return table(rows);
 }
 
@@ -54,7 +57,8 @@ std::string notes(const std::vector<Outcome>& outcomes) {
   for (const auto& outcome : outcomes) {
     if (!outcome.note.empty()) text += fmt::format("{}: {}\n", outcome.attempt.name(), outcome.note);
     if (!outcome.probe.passed())
-      text += fmt::format("{}: parity is not claimed, its arithmetic differs: {}\n", outcome.attempt.name(), firstFailure(outcome.probe));
+      text += fmt::format("{}: parity is not claimed, its arithmetic differs: {}\n", outcome.attempt.name(),
+                          firstFailure(outcome.probe));
     if (outcome.run.device.correctnessOnly && outcome.attempt.device != software) {
       software = outcome.attempt.device;
       text += fmt::format("{}: a software driver; its times say nothing about a GPU\n", software);
@@ -67,13 +71,18 @@ std::string notes(const std::vector<Outcome>& outcomes) {
 
 std::string parityReport(const Scene& scene, const std::vector<Outcome>& outcomes) {
   const auto count = [&](Outcome::Verdict verdict) {
-    return static_cast<std::size_t>(std::count_if(outcomes.begin(), outcomes.end(), [=](const auto& outcome) { return outcome.verdict() == verdict; }));
+    return static_cast<std::size_t>(std::count_if(outcomes.begin(), outcomes.end(),
+                                                  [=](const auto& outcome) { return outcome.verdict() == verdict; }));
   };
   const std::size_t equal = count(Outcome::kEqual);
-  const char* const overall = count(Outcome::kDifferent) != 0 ? "DIFFERENT" : equal == outcomes.size() ? "equal" : "not shown for all";
-  return fmt::format("{}: {} triangles, {} x {}; pixels that differ from the oracle:\n\n{}\n{}\n{}parity: {}; {} of {} equal to the oracle in every bit\n",
-                     scene.name, grouped(scene.triangles.size()), scene.width, scene.height, verdictTable(outcomes), timesTable(outcomes),
-                     notes(outcomes), overall, equal, outcomes.size());
+  const char* const overall = count(Outcome::kDifferent) != 0 ? "DIFFERENT"
+                              : equal == outcomes.size()      ? "equal"
+                                                              : "not shown for all";
+  return fmt::format(
+      "{}: {} triangles, {} x {}; pixels that differ from the oracle:\n\n{}\n{}\n{}parity: {}; {} of {} equal to the "
+      "oracle in every bit\n",
+      scene.name, grouped(scene.triangles.size()), scene.width, scene.height, verdictTable(outcomes),
+      timesTable(outcomes), notes(outcomes), overall, equal, outcomes.size());
 }
 
 }  // namespace tessera::cli

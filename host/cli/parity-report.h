@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "host/error.h"
 #include "host/probe.h"
 #include "host/row.h"
 
@@ -11,7 +12,7 @@ namespace tessera::cli {
 
 /// One device by one route.
 struct Attempt {
-  std::string device, route;   ///< as --device names it; cpp, spirv or glsl
+  std::string device, route;  ///< as --device names it; cpp, spirv or glsl
   Variant variant;
 
   std::string name() const { return device + " " + route; }
@@ -21,10 +22,11 @@ struct Outcome {
   enum Verdict { kEqual, kNotClaimed, kDifferent, kRefused };
 
   Attempt attempt;
-  Run run;                     ///< its difference is from the oracle; none when the device could not run
-  Probe probe;                 ///< of the device's arithmetic; parity is claimed only where it passed
-  std::uint64_t covered = 0;   ///< pixels
-  std::string note;            ///< one line on a difference or a refusal; "" when equal
+  Run run;                    ///< its difference is from the oracle; none when the device could not run
+  Probe probe;                ///< of the device's arithmetic; parity is claimed only where it passed
+  std::uint64_t covered = 0;  ///< pixels
+  ExitCode refusal{};         ///< why it could not run
+  std::string note;           ///< one line on a difference or a refusal; "" when equal
 
   Verdict verdict() const {
     if (!run.difference) return kRefused;

@@ -1,4 +1,6 @@
 // tessera plan: which passes a scene needs under a variant, and why each other one is left out.
+#include "host/plan.h"
+
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -8,7 +10,6 @@
 #include "host/cli/commands.h"
 #include "host/cli/common.h"
 #include "host/cli/table.h"
-#include "host/plan.h"
 
 namespace tessera::cli {
 namespace {

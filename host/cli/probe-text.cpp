@@ -2,9 +2,7 @@
 
 namespace tessera::cli {
 
-std::string routeName(Route route) {
-  return route == Route::kCpp ? "cpp" : route == Route::kSpirv ? "spirv" : "glsl";
-}
+std::string routeName(Route route) { return route == Route::kCpp ? "cpp" : route == Route::kSpirv ? "spirv" : "glsl"; }
 
 std::string firstFailure(const Probe& probe) {
   for (const auto& result : probe.results)

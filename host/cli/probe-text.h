@@ -8,7 +8,7 @@
 
 namespace tessera::cli {
 
-std::string routeName(Route route);                   ///< "cpp", "spirv" or "glsl"
-std::string firstFailure(const Probe& probe);         ///< "divide: 1/3 gives ..."; "" when it passed
+std::string routeName(Route route);            ///< "cpp", "spirv" or "glsl"
+std::string firstFailure(const Probe& probe);  ///< "divide: 1/3 gives ..."; "" when it passed
 
 }  // namespace tessera::cli

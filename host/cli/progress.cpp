@@ -14,7 +14,9 @@ constexpr std::chrono::seconds kLogInterval{10};
 }  // namespace
 
 Progress::Progress(std::string label, std::size_t total)
-    : label_(std::move(label)), terminal_(isatty(STDERR_FILENO) == 1), total_(total),
+    : label_(std::move(label)),
+      terminal_(isatty(STDERR_FILENO) == 1),
+      total_(total),
       watcher_([this](std::stop_token stop) { watch(stop); }) {}
 
 Progress::~Progress() {
@@ -27,12 +29,6 @@ void Progress::at(std::size_t done, const std::string& what) {
   const std::lock_guard lock(mutex_);
   done_ = done;
   what_ = what;
-}
-
-void Progress::of(std::size_t done, std::size_t total) {
-  const std::lock_guard lock(mutex_);
-  done_ = done;
-  total_ = total;
 }
 
 void Progress::watch(std::stop_token stop) {

@@ -18,8 +18,7 @@ class Progress {
   ~Progress();
   Progress(const Progress&) = delete;
 
-  void at(std::size_t done, const std::string& what = "");   ///< `what` is being done now
-  void of(std::size_t done, std::size_t total);              ///< for work whose total becomes known later
+  void at(std::size_t done, const std::string& what = "");  ///< `what` is being done now
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -35,7 +34,7 @@ class Progress {
   std::string what_;
   std::size_t done_ = 0, total_ = 0;
   bool drawn_ = false;
-  std::jthread watcher_;   ///< last, so that it ends before what it reads is gone
+  std::jthread watcher_;  ///< last, so that it ends before what it reads is gone
 };
 
 }  // namespace tessera::cli

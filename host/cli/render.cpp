@@ -6,6 +6,7 @@
 
 #include "host/cli/commands.h"
 #include "host/cli/common.h"
+#include "host/cli/compile.h"
 #include "host/cli/progress.h"
 #include "host/cli/table.h"
 #include "host/image.h"
@@ -22,6 +23,11 @@ struct RenderOptions : Options {
   unsigned repeat = 0;
 };
 
+Variant counting(Variant variant) {
+  variant.set("counters", "work");
+  return variant;
+}
+
 std::string summary(const RenderOptions& options, const Run& run, std::uint64_t covered) {
   const Scene& scene = *run.scene;
   const double pixels = static_cast<double>(scene.width) * scene.height;
@@ -29,11 +35,13 @@ std::string summary(const RenderOptions& options, const Run& run, std::uint64_t 
                                  grouped(scene.triangles.size()), scene.width, scene.height, grouped(covered),
                                  100.0 * static_cast<double>(covered) / pixels);
   text += fmt::format("{}{}, peak {} of buffers\n", run.device.name,
-                      run.device.threads != 0 ? fmt::format(", {} threads", run.device.threads) : "", byteSize(run.peakBufferBytes));
+                      run.device.threads != 0 ? fmt::format(", {} threads", run.device.threads) : "",
+                      byteSize(run.peakBufferBytes));
   if (run.device.correctnessOnly) text += "a software driver: its times say nothing about a GPU\n";
   std::vector<std::vector<std::string>> rows{{"stage", "ms"}};
   for (const auto& [stage, median] : stageMedians(run.samples)) rows.push_back({stage, milliseconds(median)});
-  rows.push_back({fmt::format("frame ({} of {})", run.samples.size() > 1 ? "median" : "time", run.samples.size()), milliseconds(totalSpread(run.samples).median)});
+  rows.push_back({fmt::format("frame ({} of {})", run.samples.size() > 1 ? "median" : "time", run.samples.size()),
+                  milliseconds(totalSpread(run.samples).median)});
   text += table(rows);
   for (const auto& output : options.outputs) text += fmt::format("wrote {}\n", output);
   return text;
@@ -41,32 +49,39 @@ std::string summary(const RenderOptions& options, const Run& run, std::uint64_t 
 
 /// Renders into `run`; what it holds when this throws is still worth a row.
 Framebuffer renderFrames(const RenderOptions& options, Device& device, KernelCache& kernels, Run& run) {
-  Rasterizer rasterizer(device, kernels);
+  const Scene& scene = *run.scene;
   const Variant variant = run.variant;
+  const bool countWork = !options.json.empty();
+  std::vector<Plan> plans{makePlan(scene, variant, run.device)};
+  if (countWork) plans.push_back(makePlan(scene, counting(variant), run.device));
+  compileKernels(kernels, plans);
+
+  Rasterizer rasterizer(device, kernels);
   Progress progress("render", options.repeat + 1);
-  progress.at(0, "compiling kernels, first frame");
-  Frame first = rasterizer.render(*run.scene, variant);
+  Frame first = rasterizer.render(scene, variant);
   run.variant = first.plan.resolved;
   run.plan = first.plan.entries;
   run.counters = first.counters;
+  run.kernels = kernelHashes(kernels, first.plan);
   // A repeated run leaves its first frame out of the times: it grows buffers and warms caches.
   if (options.repeat == 0) run.samples.push_back(first.times);
   for (unsigned i = 0; i < options.repeat; ++i) {
-    progress.at(i + 1, "timed frames");
-    run.samples.push_back(rasterizer.render(*run.scene, variant, {.readBack = false}).times);
+    progress.at(i + 1);
+    run.samples.push_back(rasterizer.render(scene, variant, {.readBack = false}).times);
   }
   run.peakBufferBytes = device.peakBufferBytes();
-  if (!options.json.empty()) {
-    Counters work = rasterizer.render(*run.scene, variant, {.readBack = false, .countWork = true}).counters;
-    run.counters.merge(work);   // keeps the first frame's retries
+  if (countWork) {
+    const Counters work = rasterizer.render(scene, variant, {.readBack = false, .countWork = true}).counters;
+    for (const char* const name : {"tests", "covered", "atomics"}) run.counters[name] = work.at(name);
   }
   return std::move(first.image);
 }
 
 ExitCode render(const RenderOptions& options) {
-  if (options.outputs.empty() && options.json.empty()) failUsage("render: nothing to write; -o FILE.png, -o FILE.exr or --json FILE is needed");
+  if (options.outputs.empty() && options.json.empty())
+    failUsage("render: nothing to write; -o FILE.png, -o FILE.exr or --json FILE is needed");
   for (const auto& output : options.outputs) checkImagePath(output);
-  if (!options.json.empty()) checkTextPath(options.json, options.input);
+  if (!options.json.empty()) checkOutputPath(options.json, options.input);
   Run run;
   run.variant = variantOf(options);
   const auto device = openDevice(options);
@@ -76,7 +91,9 @@ ExitCode render(const RenderOptions& options) {
   KernelCache kernels;
   run.slang = kernels.slangc().version;
   run.kernelCompiler = kernels.cxx();
-  const auto writeRow = [&] { if (!options.json.empty()) writeText(options.json, rowText(run) + '\n'); };
+  const auto writeRow = [&] {
+    if (!options.json.empty()) writeText(options.json, rowText(run) + '\n');
+  };
   Framebuffer image;
   try {
     image = renderFrames(options, *device, kernels, run);
@@ -99,18 +116,27 @@ Command addRender(CLI::App& app) {
   auto options = std::make_shared<RenderOptions>();
   auto* const command = app.add_subcommand("render", "render INPUT to an image and a result row");
   addInput(*command, *options);
-  command->add_option("-o,--output", options->outputs, "image: .png to look at, .exr with exact ids and depths; may be repeated")
-      ->type_name("FILE")->allow_extra_args(false);
+  command
+      ->add_option("-o,--output", options->outputs,
+                   "image: .png to look at, .exr with exact ids and depths; may be repeated")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
   addDevice(*command, *options, false);
   addSettings(*command, *options);
   addThreads(*command, *options);
-  command->add_option("--repeat", options->repeat, "time N frames after one that warms up; without it the one frame is timed")
-      ->type_name("N")->check(CLI::Range(1, 1000000));
-  command->add_option("--json", options->json, "write the result row (one line of JSON) to FILE, or - for stdout")->type_name("FILE");
-  command->footer("Examples:\n"
-                  "  tessera render bunny.obj -o bunny.png --set shade=smooth --size 1920x1080\n"
-                  "  tessera render 'generate:icosphere?level=7' --device vulkan:0 --set route=glsl -o ball.exr\n"
-                  "  tessera render scene.toml --threads 1 --repeat 50 --json row.json\n\n" + inputHelp() + "\n" + axesHelp());
+  command
+      ->add_option("--repeat", options->repeat,
+                   "time N frames after one that warms up; without it the one frame is timed")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1000000));
+  command->add_option("--json", options->json, "write the result row (one line of JSON) to FILE, or - for stdout")
+      ->type_name("FILE");
+  command->footer(
+      "Examples:\n"
+      "  tessera render bunny.obj -o bunny.png --set shade=smooth --size 1920x1080\n"
+      "  tessera render 'generate:icosphere?level=7' --device vulkan:0 --set route=glsl -o ball.exr\n"
+      "  tessera render scene.toml --threads 1 --repeat 50 --json row.json\n\n" +
+      inputHelp() + "\n" + axesHelp());
   return {command, [options] { return render(*options); }};
 }
 

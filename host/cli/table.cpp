@@ -8,9 +8,7 @@
 namespace tessera::cli {
 namespace {
 
-bool looksNumeric(std::string_view cell) {
-  return cell.find_first_not_of("0123456789.,-+%") == std::string_view::npos;
-}
+bool looksNumeric(std::string_view cell) { return cell.find_first_not_of("0123456789.,-+%") == std::string_view::npos; }
 
 }  // namespace
 

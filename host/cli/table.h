@@ -11,8 +11,8 @@ namespace tessera::cli {
 /// every cell but the heading looks like a number are set to the right.
 std::string table(const std::vector<std::vector<std::string>>& rows);
 
-std::string grouped(std::uint64_t number);        ///< 88,928
-std::string milliseconds(double nanoseconds);     ///< "4.21", three significant figures or more
-std::string byteSize(std::uint64_t bytes);        ///< "128 MiB"
+std::string grouped(std::uint64_t number);     ///< 88,928
+std::string milliseconds(double nanoseconds);  ///< "4.21", three significant figures or more
+std::string byteSize(std::uint64_t bytes);     ///< "128 MiB"
 
 }  // namespace tessera::cli

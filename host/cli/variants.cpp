@@ -21,8 +21,11 @@ std::string rangeText(const Axis& axis) { return fmt::format("{} to {}", axis.le
 std::string axesJson() {
   auto json = nlohmann::ordered_json::array();
   for (const auto& axis : axes()) {
-    nlohmann::ordered_json entry{{"name", axis.name}, {"meaning", axis.meaning}, {"source", axis.source},
-                                 {"stages", axis.stages}, {"unset", axis.unset}};
+    nlohmann::ordered_json entry{{"name", axis.name},
+                                 {"meaning", axis.meaning},
+                                 {"source", axis.source},
+                                 {"stages", axis.stages},
+                                 {"unset", axis.unset}};
     if (axis.values.empty()) entry["range"] = {axis.least, axis.most};
     for (const auto& value : axis.values)
       entry["values"].push_back({{"name", value.name}, {"kind", kindName(value.kind)}, {"meaning", value.meaning}});
@@ -35,9 +38,11 @@ std::string axesMarkdown() {
   std::string text = "| axis | meaning | values | when not set | source |\n|---|---|---|---|---|\n";
   for (const auto& axis : axes()) {
     std::vector<std::string> values;
-    for (const auto& value : axis.values) values.push_back(fmt::format("`{}` ({}): {}", value.name, kindName(value.kind), value.meaning));
+    for (const auto& value : axis.values)
+      values.push_back(fmt::format("`{}` ({}): {}", value.name, kindName(value.kind), value.meaning));
     text += fmt::format("| `{}` | {} | {} | {} | {} |\n", axis.name, axis.meaning,
-                        values.empty() ? rangeText(axis) : fmt::format("{}", fmt::join(values, "<br>")), axis.unset, axis.source);
+                        values.empty() ? rangeText(axis) : fmt::format("{}", fmt::join(values, "<br>")), axis.unset,
+                        axis.source);
   }
   return text;
 }
@@ -47,12 +52,14 @@ std::string axesText() {
   for (const auto& axis : axes()) {
     text += fmt::format("{}: {}\n", axis.name, axis.meaning);
     if (axis.values.empty()) text += fmt::format("  {}\n", rangeText(axis));
-    for (const auto& value : axis.values) text += fmt::format("  {:<14} {:<14} {}\n", value.name, kindName(value.kind), value.meaning);
+    for (const auto& value : axis.values)
+      text += fmt::format("  {:<14} {:<14} {}\n", value.name, kindName(value.kind), value.meaning);
     text += fmt::format("  when not set: {}\n", axis.unset);
     if (!axis.source.empty()) text += fmt::format("  source: {}\n", axis.source);
     text += '\n';
   }
-  return text + "image: changes what is right; implementation: may change no bit; approximate: its error is measured.\n";
+  return text +
+         "image: changes what is right; implementation: may change no bit; approximate: its error is measured.\n";
 }
 
 }  // namespace

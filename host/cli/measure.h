@@ -1,0 +1,24 @@
+// What render and parity have in common: kernels compiled ahead, frames rendered and timed, all of it kept for a row.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "host/kernel-cache.h"
+#include "host/plan.h"
+#include "host/row.h"
+
+namespace tessera::cli {
+
+/// Compiles what the plans need, all kernels at once on all cores, with progress.
+void compileKernels(KernelCache& kernels, const std::vector<Plan>& plans);
+
+/// A run that has not rendered yet: scene, variant as it was asked for, device and tools.
+Run beginRun(const Scene& scene, const Variant& variant, const Device& device, const KernelCache& kernels);
+
+/// Renders run.scene under run.variant and fills `run`. `repeat` 0: the one frame is timed; otherwise it warms up
+/// (buffers grow, caches fill) and so many more are timed; `progress` hears how many are done. Returns the first frame.
+Frame measure(Run& run, Rasterizer& rasterizer, KernelCache& kernels, unsigned repeat,
+              const std::function<void(unsigned)>& progress = {});
+
+}  // namespace tessera::cli

@@ -1,0 +1,29 @@
+// What a frame is held against: the oracle, pixel by pixel, and where that differs another device, stage by stage.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "host/image.h"
+#include "host/rasterizer.h"
+#include "host/scene.h"
+
+namespace tessera::cli {
+
+/// The oracle does not shade: the first frame's colours are what the others' are held against.
+class Oracle {
+ public:
+  Oracle(const Scene& scene, const Variant& variant);
+
+  Difference against(const Framebuffer& frame);
+  /// The oracle's image reduced to what the frame holds: hits under commit=count, depth and ids otherwise.
+  Framebuffer expected(const Framebuffer& frame) const;
+
+ private:
+  Framebuffer image_;
+};
+
+/// One line: the first stage, and the first element and word of its output, in which `frame` is not as `good`.
+std::string firstStage(const Frame& good, const std::string& goodName, const Frame& frame, const std::string& name);
+
+}  // namespace tessera::cli

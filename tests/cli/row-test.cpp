@@ -1,0 +1,56 @@
+// The statistics of a row, on figures worked out by hand.
+#include "host/row.h"
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+using namespace tessera;
+
+TEST_CASE("Order statistics of a sample") {
+  CHECK(spread({}).median == 0);
+  CHECK(spread({7}).median == 7);
+  CHECK(spread({7}).iqr == 0);
+  const Spread even = spread({4, 1, 3, 2});  // quartiles 1.75 and 3.25
+  CHECK(even.median == 2.5);
+  CHECK(even.min == 1);
+  CHECK(even.iqr == 1.5);
+}
+
+TEST_CASE("Stage medians keep the pipeline's order") {
+  const std::vector<FrameTimes> samples{
+      {10, {{"setup", 1}, {"bin", 9}}}, {12, {{"setup", 3}, {"bin", 9}}}, {11, {{"setup", 2}, {"bin", 9}}}};
+  const auto medians = stageMedians(samples);
+  REQUIRE(medians.size() == 2);
+  CHECK(medians[0] == std::pair<std::string, double>{"setup", 2});
+  CHECK(medians[1] == std::pair<std::string, double>{"bin", 9});
+  CHECK(totalSpread(samples).median == 11);
+}
+
+TEST_CASE("A row holds what applies and leaves out what does not") {
+  Scene scene;
+  scene.name = "broken \xff name";
+  Run run;
+  run.scene = &scene;
+  run.status = statusOf(ExitCode::kUnsupported);
+  run.message = "no 64-bit atomics";
+  const auto bare = nlohmann::json::parse(rowText(run));
+  CHECK(bare["status"] == "unsupported");
+  for (const char* const absent : {"time_ns", "error", "counters", "plan", "memory"})
+    CHECK_FALSE(bare.contains(absent));
+
+  run.difference = Difference{};
+  run.difference->psnr = std::numeric_limits<double>::infinity();
+  run.samples.push_back({5, {}});
+  const auto full = nlohmann::json::parse(rowText(run));
+  CHECK_FALSE(full["error"].contains("psnr"));
+  CHECK(full["time_ns"]["median"] == 5);
+}
+
+TEST_CASE("Covered pixels are counted by ids or by hits") {
+  Framebuffer frame{
+      .width = 2, .height = 2, .depth = {}, .ids = {0, kNoTriangle, 3, kNoTriangle}, .hits = {}, .colour = {}};
+  CHECK(coveredPixels(frame) == 2);
+  frame.ids.clear();
+  frame.hits = {0, 2, 1, 1};
+  CHECK(coveredPixels(frame) == 3);
+}
