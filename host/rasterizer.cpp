@@ -85,7 +85,7 @@ class FrameRun {
     }
     if (value("shade") == "smooth") passes_.write("normals", scene_.normals);
     passes_.buffer("counters", 8 * kernelCounterCount());
-    for (const char* field : {"extraCount", "itemCount", "entryCapacity", "queueCapacity", "entryBegin", "entryRange", "loadFrame", "commitPass", "scanCount", "scanTop"})
+    for (const char* field : {"triangleCount", "triangleBase", "extraCapacity", "itemCapacity", "extraCount", "itemCount", "entryCapacity", "queueCapacity", "entryBegin", "entryRange", "loadFrame", "commitPass", "scanCount", "scanTop"})
       passes_.set(field, 0u);
   }
 
