@@ -18,7 +18,8 @@ Matrix clipFromWorld(const Camera& camera, double slope, double aspect) {
                           glm::lookAtRH(camera.eye, camera.target, camera.up);
   Matrix matrix;
   for (int row = 0; row < 4; ++row)
-    for (int column = 0; column < 4; ++column) matrix[static_cast<std::size_t>(4 * row + column)] = static_cast<float>(clip[column][row]);
+    for (int column = 0; column < 4; ++column)
+      matrix[static_cast<std::size_t>(4 * row + column)] = static_cast<float>(clip[column][row]);
   return matrix;
 }
 
@@ -42,7 +43,9 @@ Matrix frameCamera(const Mesh& mesh, std::uint32_t width, std::uint32_t height) 
   const double slope = 0.4, aspect = double(width) / height, narrow = slope * std::fmin(aspect, 1.0);
   const double distance = 1.02 * radius * std::sqrt(1 + narrow * narrow) / narrow;
   const glm::dvec3 forward = glm::normalize(glm::dvec3(0, 0.3, 1));
-  const Camera camera{.eye = centre + forward * distance, .target = centre, .near = distance - 1.01 * radius,
+  const Camera camera{.eye = centre + forward * distance,
+                      .target = centre,
+                      .near = distance - 1.01 * radius,
                       .far = distance + 1.01 * radius};
   return clipFromWorld(camera, slope, aspect);
 }

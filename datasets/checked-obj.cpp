@@ -1,4 +1,5 @@
-// Wavefront OBJ: the lines v, vn and f; the rest (texture coordinates, groups, materials, curves) says nothing about triangles.
+// Wavefront OBJ: the lines v, vn and f; the rest (texture coordinates, groups, materials, curves) says nothing about
+// triangles.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,8 +23,10 @@ Corner parseCorner(const Lines& lines, std::string_view word) {
   const auto position = toInteger(word.substr(0, slash));
   if (!position) lines.fail(fmt::format("corner '{}' of a face does not begin with a whole number", word));
   const std::size_t second = word.find('/', slash + 1);
-  const std::string_view normal = slash < word.size() && second != word.npos ? word.substr(second + 1) : std::string_view{};
-  if (!normal.empty() && !toInteger(normal)) lines.fail(fmt::format("corner '{}' of a face: the normal is not a whole number", word));
+  const std::string_view normal =
+      slash < word.size() && second != word.npos ? word.substr(second + 1) : std::string_view{};
+  if (!normal.empty() && !toInteger(normal))
+    lines.fail(fmt::format("corner '{}' of a face: the normal is not a whole number", word));
   return {*position, normal};
 }
 
@@ -77,7 +80,8 @@ Checked checkObj(const std::string& name, std::string_view text) {
       ++checked.faces;
     }
   }
-  if (checked.vertices == 0 && checked.faces == 0) lines.fail("no vertex (v x y z) and no face (f a b c) in the whole file");
+  if (checked.vertices == 0 && checked.faces == 0)
+    lines.fail("no vertex (v x y z) and no face (f a b c) in the whole file");
   return checked;
 }
 

@@ -21,17 +21,20 @@ Checked checkOff(const std::string& name, std::string_view text) {
   Lines lines(name, text);
   lines.need("the word OFF");
   const std::string header(lines.words()[0]);
-  // Prefixes: ST texture coordinates, C colours, N normals, all of which follow x y z on a vertex's line. 4 and n change x y z.
-  if (header != "OFF" && header != "COFF" && header != "NOFF" && header != "CNOFF" && header != "STOFF" && header != "STCOFF" &&
-      header != "STNOFF" && header != "STCNOFF")
+  // Prefixes: ST texture coordinates, C colours, N normals, all of which follow x y z on a vertex's line. 4 and n
+  // change x y z.
+  if (header != "OFF" && header != "COFF" && header != "NOFF" && header != "CNOFF" && header != "STOFF" &&
+      header != "STCOFF" && header != "STNOFF" && header != "STCNOFF")
     lines.fail(fmt::format("'{}' where OFF, COFF, NOFF or STOFF would be right", header));
   std::size_t counts = 1;  // they follow on the same line, or on the next one
   if (lines.words().size() == 1) {
     lines.need("the counts of vertices and faces");
     counts = 0;
   }
-  if (lines.words()[counts] == "BINARY") lines.fail("binary OFF is not read; OFF as text, or binary PLY, would be right");
-  // Each takes a line of at least two bytes, so a count beyond the file's size is wrong; it also bounds what is set aside.
+  if (lines.words()[counts] == "BINARY")
+    lines.fail("binary OFF is not read; OFF as text, or binary PLY, would be right");
+  // Each takes a line of at least two bytes, so a count beyond the file's size is wrong; it also bounds what is set
+  // aside.
   const auto most = static_cast<std::int64_t>(text.size());
   checked.vertices = static_cast<std::size_t>(lines.integer(counts, "count of vertices", 0, most));
   checked.faces = static_cast<std::size_t>(lines.integer(counts + 1, "count of faces", 0, most));

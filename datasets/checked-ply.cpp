@@ -31,7 +31,8 @@ Checked checkPly(const std::string& name, std::string_view text) {
       const bool isCorners = element == "face" && (list == "vertex_indices" || list == "vertex_index");
       // OpenMesh reads other lists as if they were single values, and everything after them from the wrong place.
       if (!isCorners)
-        lines.fail(fmt::format("list '{}' of element '{}' cannot be read; a file without it would be right", list, element));
+        lines.fail(
+            fmt::format("list '{}' of element '{}' cannot be read; a file without it would be right", list, element));
       corners = true;
     }
     ended = words[0] == "end_header";

@@ -53,7 +53,8 @@ ParsedGenerator parseGenerator(std::string_view spec) {
     if (parameter == found->parameters.end() || equals == setting.npos) {
       std::vector<std::string_view> names;
       for (const auto& p : found->parameters) names.push_back(p.name);
-      failUsage(fmt::format("generate:{}: '{}' is not key=value with a key of {}", name, setting, fmt::join(names, ", ")));
+      failUsage(
+          fmt::format("generate:{}: '{}' is not key=value with a key of {}", name, setting, fmt::join(names, ", ")));
     }
     const auto at = static_cast<std::size_t>(parameter - found->parameters.begin());
     if (given[at]) failUsage(fmt::format("generate:{}: {} is given twice", name, parameter->name));
@@ -69,7 +70,8 @@ const std::vector<GeneratorDoc>& generatorDocs() {
     for (const Generator& generator : generators()) {
       std::string parameters;
       for (const auto& p : generator.parameters) {
-        const std::string initial = p.choices.empty() ? fmt::format("{}", p.initial) : p.choices[static_cast<std::size_t>(p.initial)];
+        const std::string initial =
+            p.choices.empty() ? fmt::format("{}", p.initial) : p.choices[static_cast<std::size_t>(p.initial)];
         parameters += fmt::format("{}{}={} ({})", parameters.empty() ? "" : ", ", p.name, initial, rangeText(p));
       }
       list.push_back({generator.name, parameters, generator.makes});

@@ -1,5 +1,5 @@
-// Pictures that fill the clip volume as they are: x and y from -1 to 1, y down, z from 0 (near) to 1. What hurts a rasteriser:
-// shared edges at odd angles, slivers, overdraw, many triangles in one place.
+// Pictures that fill the clip volume as they are: x and y from -1 to 1, y down, z from 0 (near) to 1. What hurts a
+// rasteriser: shared edges at odd angles, slivers, overdraw, many triangles in one place.
 #include <cmath>
 
 #include "datasets/generators.h"
@@ -54,7 +54,8 @@ Mesh makeSlivers(const GeneratorValues& values) {
   Mesh mesh;
   for (std::uint32_t i = 0; i < count + 2; ++i) {
     const glm::dvec2 p((double(i) / (count + 1) * 2 - 1) * 0.9, i % 2 == 0 ? -0.9 : 0.9);
-    mesh.positions.push_back(point({p.x * turn.x - p.y * turn.y, p.x * turn.y + p.y * turn.x}, 0.25 + 0.5 * i / (count + 1)));
+    mesh.positions.push_back(
+        point({p.x * turn.x - p.y * turn.y, p.x * turn.y + p.y * turn.x}, 0.25 + 0.5 * i / (count + 1)));
     if (i < 2) continue;
     mesh.triangles.push_back(i % 2 == 0 ? Triangle{i - 2, i - 1, i} : Triangle{i - 1, i - 2, i});
   }
@@ -80,7 +81,8 @@ Mesh makeLoose(std::uint64_t count, double side, Random& random, Place place) {
 }
 
 Mesh makeSoup(const GeneratorValues& values) {
-  // Three points uniform in a unit square span 11/144 on average (Santalo, Integral Geometry and Geometric Probability, I.2.6).
+  // Three points uniform in a unit square span 11/144 on average (Henze, "Random triangles in convex
+  // regions", J. Appl. Prob. 20, 1983).
   const double side = std::sqrt(values[1] * 144 / 11) * kPixel;
   Random random(static_cast<std::uint64_t>(values[2]));
   return makeLoose(static_cast<std::uint64_t>(values[0]), side, random, [&] {
@@ -114,16 +116,32 @@ Mesh makeLayers(const GeneratorValues& values) {
 std::vector<Generator> flatGenerators() {
   const GeneratorParameter seed{"seed", 1, 0, 0x1p53};
   return {
-      {"grid", "flat: 2 x columns x rows triangles that share edges, turned by an angle in degrees",
-       {{"columns", 64, 1, 2048}, {"rows", 64, 1, 2048}, {"angle", 0, 0, 360, false}}, true, makeGrid},
+      {"grid",
+       "flat: 2 x columns x rows triangles that share edges, turned by an angle in degrees",
+       {{"columns", 64, 1, 2048}, {"rows", 64, 1, 2048}, {"angle", 0, 0, 360, false}},
+       true,
+       makeGrid},
       {"fan", "flat: a closed fan of count triangles around the centre", {{"count", 1000, 3, 4000000}}, true, makeFan},
-      {"slivers", "flat: a strip of count triangles over the whole height", {{"count", 2000, 1, 4000000}}, true, makeSlivers},
-      {"soup", "flat: count loose triangles of a mean area in pixels at 2048 x 2048, corners and depths at random",
-       {{"count", 100000, 1, 10000000}, {"pixels", 64, 0.01, 1000000, false}, seed}, true, makeSoup},
-      {"layers", "flat: count times the whole screen, two triangles each",
-       {{"count", 64, 1, 100000}, {"order", 0, 0, 1, true, {"far-to-near", "near-to-far"}}}, true, makeLayers},
-      {"hot", "flat: count triangles in one block of block x block pixels at 2048 x 2048",
-       {{"count", 500000, 1, 10000000}, {"block", 64, 1, 2048, false}, seed}, true, makeHot},
+      {"slivers",
+       "flat: a strip of count triangles over the whole height",
+       {{"count", 2000, 1, 4000000}},
+       true,
+       makeSlivers},
+      {"soup",
+       "flat: count loose triangles of a mean area in pixels at 2048 x 2048, corners and depths at random",
+       {{"count", 100000, 1, 10000000}, {"pixels", 64, 0.01, 1000000, false}, seed},
+       true,
+       makeSoup},
+      {"layers",
+       "flat: count times the whole screen, two triangles each",
+       {{"count", 64, 1, 100000}, {"order", 0, 0, 1, true, {"far-to-near", "near-to-far"}}},
+       true,
+       makeLayers},
+      {"hot",
+       "flat: count triangles in one block of block x block pixels at 2048 x 2048",
+       {{"count", 500000, 1, 10000000}, {"block", 64, 1, 2048, false}, seed},
+       true,
+       makeHot},
   };
 }
 

@@ -9,7 +9,8 @@ namespace {
 
 using HalfedgeMesh = OpenMesh::TriMesh_ArrayKernelT<>;
 
-/// Each triangle becomes four: its corners', then the middle one. A new vertex an edge, so the half-edge mesh numbers them.
+/// Each triangle becomes four: its corners', then the middle one. A new vertex an edge, so the half-edge mesh numbers
+/// them.
 void subdivide(std::vector<glm::dvec3>& positions, std::vector<Triangle>& triangles) {
   HalfedgeMesh mesh;
   mesh.reserve(positions.size(), triangles.size() * 3 / 2, triangles.size());
@@ -28,7 +29,8 @@ void subdivide(std::vector<glm::dvec3>& positions, std::vector<Triangle>& triang
   std::vector<Triangle> next;
   next.reserve(triangles.size() * 4);
   const auto middle = [&](std::uint32_t a, std::uint32_t b) {
-    const auto halfedge = mesh.find_halfedge(OpenMesh::VertexHandle(static_cast<int>(a)), OpenMesh::VertexHandle(static_cast<int>(b)));
+    const auto halfedge =
+        mesh.find_halfedge(OpenMesh::VertexHandle(static_cast<int>(a)), OpenMesh::VertexHandle(static_cast<int>(b)));
     return first + static_cast<std::uint32_t>(mesh.edge_handle(halfedge).idx());
   };
   for (const auto& [a, b, c] : triangles) {
@@ -41,12 +43,13 @@ void subdivide(std::vector<glm::dvec3>& positions, std::vector<Triangle>& triang
 Mesh makeIcosphere(const GeneratorValues& values) {
   // An icosahedron: three golden rectangles (0, +-1, +-phi), in each of the three orders of the axes.
   const double phi = (1 + std::sqrt(5.0)) / 2;
-  std::vector<glm::dvec3> positions{{-1, phi, 0}, {1, phi, 0}, {-1, -phi, 0}, {1, -phi, 0}, {0, -1, phi}, {0, 1, phi},
-                                    {0, -1, -phi}, {0, 1, -phi}, {phi, 0, -1}, {phi, 0, 1}, {-phi, 0, -1}, {-phi, 0, 1}};
+  std::vector<glm::dvec3> positions{{-1, phi, 0}, {1, phi, 0}, {-1, -phi, 0}, {1, -phi, 0},
+                                    {0, -1, phi}, {0, 1, phi}, {0, -1, -phi}, {0, 1, -phi},
+                                    {phi, 0, -1}, {phi, 0, 1}, {-phi, 0, -1}, {-phi, 0, 1}};
   for (glm::dvec3& p : positions) p = glm::normalize(p);
-  std::vector<Triangle> triangles{{0, 11, 5}, {0, 5, 1}, {0, 1, 7}, {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
-                                  {11, 10, 2}, {10, 7, 6}, {7, 1, 8}, {3, 9, 4}, {3, 4, 2}, {3, 2, 6}, {3, 6, 8},
-                                  {3, 8, 9}, {4, 9, 5}, {2, 4, 11}, {6, 2, 10}, {8, 6, 7}, {9, 8, 1}};
+  std::vector<Triangle> triangles{{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+                                  {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+                                  {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
   for (int level = 0; level < static_cast<int>(values[0]); ++level) subdivide(positions, triangles);
   Mesh mesh;
   mesh.triangles = std::move(triangles);
@@ -79,9 +82,16 @@ Mesh makeTorus(const GeneratorValues& values) {
 
 std::vector<Generator> solidGenerators() {
   return {
-      {"icosphere", "a sphere of 20 x 4^level triangles of nearly one size", {{"level", 5, 0, 9}}, false, makeIcosphere},
-      {"torus", "a ring of 2 x rings x sides triangles; tube is its tube's radius", {{"rings", 128, 3, 4096}, {"sides", 64, 3, 4096},
-       {"tube", 0.4, 0.01, 1, false}}, false, makeTorus},
+      {"icosphere",
+       "a sphere of 20 x 4^level triangles of nearly one size",
+       {{"level", 5, 0, 9}},
+       false,
+       makeIcosphere},
+      {"torus",
+       "a ring of 2 x rings x sides triangles; tube is its tube's radius",
+       {{"rings", 128, 3, 4096}, {"sides", 64, 3, 4096}, {"tube", 0.4, 0.01, 1, false}},
+       false,
+       makeTorus},
   };
 }
 

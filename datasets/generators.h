@@ -1,5 +1,5 @@
-// Meshes by name and parameters. Positions are made with + - x / and square roots alone, so that they have the same bits on every
-// machine, whatever its mathematics library.
+// Meshes by name and parameters. Positions are made with + - x / and square roots alone, so that they have the same
+// bits on every machine, whatever its mathematics library.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -14,8 +14,8 @@ namespace tessera {
 struct GeneratorParameter {
   std::string name;
   double initial = 0, least = 0, most = 0;
-  bool whole = true;                     ///< takes whole numbers only
-  std::vector<std::string> choices = {}; ///< if there are any, the value is the place of the chosen word
+  bool whole = true;                      ///< takes whole numbers only
+  std::vector<std::string> choices = {};  ///< if there are any, the value is the place of the chosen word
 };
 
 /// Values in the order of the generator's parameters.
@@ -25,7 +25,8 @@ struct Generator {
   std::string name;
   std::string makes;
   std::vector<GeneratorParameter> parameters;
-  /// x and y from -1 to 1, z from 0 to 1: fills the clip volume under the identity matrix. Others are solids around the origin.
+  /// x and y from -1 to 1, z from 0 to 1: fills the clip volume under the identity matrix. Others are solids around the
+  /// origin.
   bool flat;
   Mesh (*make)(const GeneratorValues&);
 };

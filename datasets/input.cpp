@@ -14,11 +14,10 @@ constexpr std::string_view kGenerate = "generate:";
 
 /// The size that was asked for, or the input's own.
 void setSize(Scene& scene, std::uint32_t width, std::uint32_t height) {
-  if (width == 0 && height == 0) return;
-  for (const std::uint32_t extent : {width, height})
-    if (extent < 1 || extent > kMaxExtent) failUsage(fmt::format("size {}x{}: 1x1 to {}x{} would be right", width, height, kMaxExtent, kMaxExtent));
-  scene.width = width;
-  scene.height = height;
+  if (width > kMaxExtent || height > kMaxExtent)
+    failUsage(fmt::format("size {}x{}: 1x1 to {}x{} would be right", width, height, kMaxExtent, kMaxExtent));
+  if (width != 0) scene.width = width;
+  if (height != 0) scene.height = height;
 }
 
 }  // namespace

@@ -30,7 +30,8 @@ void PlainImporter::set_normal(VertexHandle handle, const Vec3f& n) {
   glm::vec3& own = mesh_.normals[vertex];
   if (own == glm::vec3(0)) own = normal;
   if (own == normal) return;
-  const std::array key{vertex, std::bit_cast<std::uint32_t>(n[0]), std::bit_cast<std::uint32_t>(n[1]), std::bit_cast<std::uint32_t>(n[2])};
+  const std::array key{vertex, std::bit_cast<std::uint32_t>(n[0]), std::bit_cast<std::uint32_t>(n[1]),
+                       std::bit_cast<std::uint32_t>(n[2])};
   const auto [twin, isNew] = twins_.try_emplace(key, static_cast<std::uint32_t>(mesh_.positions.size()));
   if (isNew) {
     mesh_.positions.push_back(mesh_.positions[vertex]);

@@ -1,5 +1,5 @@
-// What OpenMesh's readers fill: plain vertices and faces, as they come. The half-edge mesh that OpenMesh's own importer fills
-// cannot hold faces that make it non-manifold, and renumbers what it splits.
+// What OpenMesh's readers fill: plain vertices and faces, as they come. The half-edge mesh that OpenMesh's own importer
+// fills cannot hold faces that make it non-manifold, and renumbers what it splits.
 #pragma once
 
 #include <OpenMesh/Core/IO/importer/BaseImporter.hh>
@@ -11,8 +11,8 @@
 
 namespace tessera {
 
-/// Fans polygons from their first corner, puts withheld faces back in their places, and gives a vertex a twin where a face asks
-/// for it with another normal (OBJ numbers normals apart from positions).
+/// Fans polygons from their first corner, puts withheld faces back in their places, and gives a vertex a twin where a
+/// face asks for it with another normal (OBJ numbers normals apart from positions).
 class PlainImporter final : public OpenMesh::IO::BaseImporter {
  public:
   explicit PlainImporter(const Checked& checked);
@@ -74,11 +74,11 @@ class PlainImporter final : public OpenMesh::IO::BaseImporter {
 
   const Checked& checked_;
   Mesh mesh_;
-  std::size_t vertices_ = 0;   ///< of the file; twins follow them
-  std::size_t faces_ = 0;      ///< of the file so far, withheld ones among them
-  std::size_t putBack_ = 0;    ///< withheld faces that are in
-  std::map<std::array<std::uint32_t, 4>, std::uint32_t> twins_;   ///< vertex and bits of the normal -> vertex
-  std::map<std::uint32_t, std::uint32_t> twinOfFace_;             ///< for the face that comes next: vertex -> twin
+  std::size_t vertices_ = 0;                                     ///< of the file; twins follow them
+  std::size_t faces_ = 0;                                        ///< of the file so far, withheld ones among them
+  std::size_t putBack_ = 0;                                      ///< withheld faces that are in
+  std::map<std::array<std::uint32_t, 4>, std::uint32_t> twins_;  ///< vertex and bits of the normal -> vertex
+  std::map<std::uint32_t, std::uint32_t> twinOfFace_;            ///< for the face that comes next: vertex -> twin
   std::vector<std::uint32_t> corners_;
 };
 

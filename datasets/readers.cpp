@@ -39,7 +39,8 @@ std::string placeOf(std::string_view text, std::istream& in, bool binary, const 
   in.exceptions(std::ios::goodbit);
   in.clear();
   const auto at = static_cast<std::size_t>(std::max<std::streamoff>(in.tellg(), 0));
-  if (binary) return fmt::format(": byte {}, after {} vertices and {} faces", at, importer.n_vertices(), importer.n_faces());
+  if (binary)
+    return fmt::format(": byte {}, after {} vertices and {} faces", at, importer.n_vertices(), importer.n_faces());
   return fmt::format(":{}", 1 + std::ranges::count(text.substr(0, at), '\n'));
 }
 
@@ -49,7 +50,8 @@ Mesh readByOpenMesh(const std::string& name, const std::string& extension, const
   const std::lock_guard lock(mutex);
   PlainImporter importer(checked);
   std::istringstream in(checked.text);
-  // They take no notice of a number that cannot be read, or of the end of the file. (OBJ is read by lines, up to a failed one.)
+  // They take no notice of a number that cannot be read, or of the end of the file. (OBJ is read by lines, up to a
+  // failed one.)
   if (extension != "obj") in.exceptions(std::ios::failbit | std::ios::badbit);
   OpenMesh::IO::Options options(OpenMesh::IO::Options::VertexNormal);
   bool read = false;
@@ -61,18 +63,20 @@ Mesh readByOpenMesh(const std::string& name, const std::string& extension, const
     failUsage(fmt::format("{}{}: {}", name, placeOf(checked.text, in, binary, importer),
                           atEnd ? "the file ends early" : "a number would be right"));
   }
-  if (!read) failUsage(fmt::format("{}: cannot be read: {}", name, errors.line().empty() ? "not a mesh" : errors.line()));
+  if (!read)
+    failUsage(fmt::format("{}: cannot be read: {}", name, errors.line().empty() ? "not a mesh" : errors.line()));
   Mesh mesh = importer.take();
   if (importer.n_vertices() != checked.vertices || importer.n_faces() != checked.faces)
-    failUsage(fmt::format("{}: holds {} vertices and {} faces, of which {} and {} can be read", name, checked.vertices, checked.faces,
-                          importer.n_vertices(), importer.n_faces()));
+    failUsage(fmt::format("{}: holds {} vertices and {} faces, of which {} and {} can be read", name, checked.vertices,
+                          checked.faces, importer.n_vertices(), importer.n_faces()));
   if (extension == "ply" && checked.wholeText) {
     in.exceptions(std::ios::goodbit);
     in.clear();
     // One line feed is ours; a file may end in one more or in none.
     const std::size_t left = checked.text.size() - static_cast<std::size_t>(in.tellg());
     if (binary ? left != 1 : checked.text.find_first_not_of(" \t\r\n", checked.text.size() - left) != std::string::npos)
-      failUsage(fmt::format("{}: {} bytes are left after the last face: a count or a type of its header is wrong", name, left - 1));
+      failUsage(fmt::format("{}: {} bytes are left after the last face: a count or a type of its header is wrong", name,
+                            left - 1));
   }
   return mesh;
 }

@@ -1,5 +1,5 @@
-// A replay file holds what the pipeline gets after its transform, as text: hexadecimal bits of float32, so that NaNs, their payloads
-// and the sign of zero survive, and that two files can be compared by eye.
+// A replay file holds what the pipeline gets after its transform, as text: hexadecimal bits of float32, so that NaNs,
+// their payloads and the sign of zero survive, and that two files can be compared by eye.
 //
 //     tessera-replay 1
 //     name NAME                  may have spaces, or be empty
@@ -17,6 +17,7 @@
 #include "datasets/input.h"
 #include "datasets/text.h"
 #include "host/error.h"
+#include "host/files.h"
 
 namespace tessera {
 namespace {
@@ -41,17 +42,20 @@ float fromBits(const Lines& lines, std::size_t i) {
 /// Moves on to the line that begins with `word` and has `count` words after it.
 void expect(Lines& lines, std::string_view word, std::size_t count) {
   lines.need(word);
-  if (lines.words()[0] != word || lines.words().size() != count + 1) lines.fail(fmt::format("'{}' with {} values would be right", word, count));
+  if (lines.words()[0] != word || lines.words().size() != count + 1)
+    lines.fail(fmt::format("'{}' with {} values would be right", word, count));
 }
 
 }  // namespace
 
 void writeReplay(const std::filesystem::path& path, const Scene& scene) {
   std::string name = scene.name;
-  std::ranges::replace_if(name, [](char c) { return c == '\n' || c == '\r' || c == '#'; }, ' ');
+  std::ranges::replace_if(
+      name, [](char c) { return c == '\n' || c == '\r' || c == '#'; }, ' ');
   fmt::memory_buffer text;
   auto out = std::back_inserter(text);
-  fmt::format_to(out, "{} 1\nname {}\nsize {} {}\nvertices {}\n", kFirst, name, scene.width, scene.height, scene.vertexCount());
+  fmt::format_to(out, "{} 1\nname {}\nsize {} {}\nvertices {}\n", kFirst, name, scene.width, scene.height,
+                 scene.vertexCount());
   for (std::size_t v = 0; v < scene.vertexCount(); ++v) {
     const auto p = std::bit_cast<std::array<std::uint32_t, 4>>(
         scene.positions.empty() ? scene.clip[v] : transform(scene.clipFromObject, scene.positions[v]));
@@ -60,7 +64,7 @@ void writeReplay(const std::filesystem::path& path, const Scene& scene) {
   fmt::format_to(out, "triangles {}\n", scene.triangles.size());
   for (const Triangle& t : scene.triangles) fmt::format_to(out, "{} {} {}\n", t[0], t[1], t[2]);
   fmt::format_to(out, "end\n");
-  writeFile(path, {text.data(), text.size()});
+  if (!writeBeside(path, {text.data(), text.size()})) fail(fmt::format("{}: cannot be written", path.string()));
 }
 
 Scene readReplay(const std::filesystem::path& path) {
@@ -87,7 +91,8 @@ Scene readReplay(const std::filesystem::path& path) {
   scene.triangles.resize(static_cast<std::size_t>(lines.integer(1, "count of triangles", 0, most)));
   for (Triangle& t : scene.triangles) {
     lines.need("the last triangle");
-    for (std::size_t k = 0; k < 3; ++k) t[k] = static_cast<std::uint32_t>(lines.integer(k, "vertex index", 0, 0xffffffff));
+    for (std::size_t k = 0; k < 3; ++k)
+      t[k] = static_cast<std::uint32_t>(lines.integer(k, "vertex index", 0, 0xffffffff));
   }
   expect(lines, "end", 0);
   return scene;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <toml++/toml.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +10,6 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 #include <optional>
-#include <toml++/toml.h>
 
 #include "datasets/camera.h"
 #include "datasets/text.h"
@@ -21,11 +21,13 @@ namespace {
 /// One table of the file, with what is needed to say where something is wrong.
 class Table {
  public:
-  Table(const std::string& file, const toml::table& table, std::string_view name, std::initializer_list<std::string_view> keys)
+  Table(const std::string& file, const toml::table& table, std::string_view name,
+        std::initializer_list<std::string_view> keys)
       : file_(file), table_(table) {
     for (const auto& [key, node] : table)
       if (std::ranges::find(keys, key.str()) == keys.end())
-        fail(key.source(), fmt::format("{} has no key '{}'; {} would be right", name, key.str(), fmt::join(keys, ", ")));
+        fail(key.source(),
+             fmt::format("{} has no key '{}'; {} would be right", name, key.str(), fmt::join(keys, ", ")));
   }
 
   bool has(std::string_view key) const { return table_.contains(key); }
@@ -65,7 +67,8 @@ class Table {
     Matrix matrix;
     for (std::size_t i = 0; i < 16; ++i) {
       matrix[i] = static_cast<float>((*values)[i]);
-      if (!std::isfinite(matrix[i])) fail(find(key)->source(), fmt::format("{}: {} is beyond float32", key, (*values)[i]));
+      if (!std::isfinite(matrix[i]))
+        fail(find(key)->source(), fmt::format("{}: {} is beyond float32", key, (*values)[i]));
     }
     return matrix;
   }
@@ -77,10 +80,12 @@ class Table {
 
 /// Positions: ((m0 x + m1 y) + m2 z) + m3, each component, float32. Normals by the inverse transpose.
 void applyMatrix(Mesh& mesh, const Matrix& m) {
-  const auto row = [&](std::size_t r, const glm::vec3& p) { return ((m[r] * p.x + m[r + 1] * p.y) + m[r + 2] * p.z) + m[r + 3]; };
+  const auto row = [&](std::size_t r, const glm::vec3& p) {
+    return ((m[r] * p.x + m[r + 1] * p.y) + m[r + 2] * p.z) + m[r + 3];
+  };
   for (glm::vec3& p : mesh.positions) p = {row(0, p), row(4, p), row(8, p)};
-  // The cofactor matrix: the inverse transpose times the determinant, there even where a matrix flattens. Its sign is taken out,
-  // so that normals stay on their side under a reflection.
+  // The cofactor matrix: the inverse transpose times the determinant, there even where a matrix flattens. Its sign is
+  // taken out, so that normals stay on their side under a reflection.
   const glm::dvec3 x(m[0], m[1], m[2]), y(m[4], m[5], m[6]), z(m[8], m[9], m[10]);
   const double sign = glm::dot(x, glm::cross(y, z)) < 0 ? -1 : 1;
   const glm::dvec3 cx = glm::cross(y, z) * sign, cy = glm::cross(z, x) * sign, cz = glm::cross(x, y) * sign;
@@ -115,7 +120,9 @@ bool addMesh(Scene& scene, const std::string& file, const toml::table& table, co
 Matrix readCamera(const std::string& file, const toml::table& table, std::uint32_t width, std::uint32_t height) {
   const Table camera(file, table, "[camera]", {"matrix", "eye", "target", "up", "fov", "near", "far"});
   if (const auto matrix = camera.matrix("matrix")) {
-    if (table.size() > 1) camera.fail(table.source(), "[camera] has matrix and other keys; matrix alone, or eye and target, would be right");
+    if (table.size() > 1)
+      camera.fail(table.source(),
+                  "[camera] has matrix and other keys; matrix alone, or eye and target, would be right");
     return *matrix;
   }
   camera.need("eye", "a matrix, or eye and target, would be right");
@@ -132,9 +139,11 @@ Matrix readCamera(const std::string& file, const toml::table& table, std::uint32
   result.near = camera.number("near").value_or(result.near);
   result.far = camera.number("far").value_or(result.far);
   const glm::dvec3 forward = result.target - result.eye, side = glm::cross(forward, result.up);
-  if (!(result.fov > 0 && result.fov < 180)) camera.fail(table.source(), fmt::format("fov {}: between 0 and 180 degrees would be right", result.fov));
+  if (!(result.fov > 0 && result.fov < 180))
+    camera.fail(table.source(), fmt::format("fov {}: between 0 and 180 degrees would be right", result.fov));
   if (!(result.near > 0 && result.far > result.near))
-    camera.fail(table.source(), fmt::format("near {} and far {}: 0 < near < far would be right", result.near, result.far));
+    camera.fail(table.source(),
+                fmt::format("near {} and far {}: 0 < near < far would be right", result.near, result.far));
   if (!(glm::dot(forward, forward) > 0)) camera.fail(table.source(), "eye and target are one point");
   if (!(glm::dot(side, side) > 0)) camera.fail(table.source(), "up lies along the line of sight");
   return perspective(result, width, height);
@@ -157,7 +166,8 @@ Scene readSceneFile(const std::filesystem::path& path, std::uint32_t width, std:
   if (const auto size = top.numbers("size", 2)) {
     const auto extent = [&](double value) {
       if (!(value >= 1 && value <= kMaxExtent && value == std::floor(value)))
-        top.fail(top.find("size")->source(), fmt::format("size: {} is not a whole number from 1 to {}", value, kMaxExtent));
+        top.fail(top.find("size")->source(),
+                 fmt::format("size: {} is not a whole number from 1 to {}", value, kMaxExtent));
       return static_cast<std::uint32_t>(value);
     };
     scene.width = extent((*size)[0]);

@@ -17,7 +17,9 @@ static_assert(sizeof(glm::vec3) == 12 && sizeof(glm::vec4) == 16 && sizeof(Trian
 
 class Sha256 {
  public:
-  Sha256() : context_(EVP_MD_CTX_new(), EVP_MD_CTX_free) { check(EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr)); }
+  Sha256() : context_(EVP_MD_CTX_new(), EVP_MD_CTX_free) {
+    check(EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr));
+  }
   template <class T>
   void add(std::span<const T> values) {
     const std::uint64_t count = values.size();  // so that what stands on either side of a border matters

@@ -29,7 +29,8 @@ struct Facets {
   std::unordered_map<Bits, std::uint32_t, HashBits> vertices;
 
   std::uint32_t vertex(const glm::vec3& p) {
-    const auto [found, isNew] = vertices.try_emplace(std::bit_cast<Bits>(p), static_cast<std::uint32_t>(mesh.positions.size()));
+    const auto [found, isNew] =
+        vertices.try_emplace(std::bit_cast<Bits>(p), static_cast<std::uint32_t>(mesh.positions.size()));
     if (isNew) mesh.positions.push_back(p);
     return found->second;
   }
@@ -57,13 +58,15 @@ Mesh readText(const std::string& name, std::string_view text) {
   while (lines.next()) {
     word = lowerCase(lines.words()[0]);
     if (word == "vertex") {
-      corners.push_back(facets.vertex({lines.real(1, "vertex x"), lines.real(2, "vertex y"), lines.real(3, "vertex z")}));
+      corners.push_back(
+          facets.vertex({lines.real(1, "vertex x"), lines.real(2, "vertex y"), lines.real(3, "vertex z")}));
     } else if (word == "endloop") {
       if (corners.size() != 3) lines.fail(fmt::format("a facet has {} vertices; 3 would be right", corners.size()));
       facets.mesh.triangles.push_back({corners[0], corners[1], corners[2]});
       corners.clear();
     } else if (word != "solid" && word != "facet" && word != "outer" && word != "endfacet" && word != "endsolid") {
-      lines.fail(fmt::format("'{}' where vertex, facet, outer loop, endloop, endfacet or endsolid would be right", word));
+      lines.fail(
+          fmt::format("'{}' where vertex, facet, outer loop, endloop, endfacet or endsolid would be right", word));
     }
   }
   if (!corners.empty() || word != "endsolid") lines.fail("the file ends before endsolid");
@@ -79,8 +82,9 @@ Mesh readStl(const std::string& name, std::string_view text) {
     if (text.size() == kHeader + count * kFacet) return readBinary(text, count);
   }
   if (lowerCase(text.substr(0, 5)) == "solid" && text.find('\0') == text.npos) return readText(name, text);
-  failUsage(fmt::format("{}: neither STL text (which begins with 'solid') nor binary STL: {} facets would take {} bytes, the file has {}",
-                        name, count, kHeader + count * kFacet, text.size()));
+  failUsage(fmt::format(
+      "{}: neither STL text (which begins with 'solid') nor binary STL: {} facets would take {} bytes, the file has {}",
+      name, count, kHeader + count * kFacet, text.size()));
 }
 
 }  // namespace tessera

@@ -1,7 +1,6 @@
 #include "datasets/text.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <charconv>
 #include <cmath>
@@ -33,27 +32,13 @@ std::string readFile(const std::filesystem::path& path) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
   if (!std::filesystem::exists(status)) failUsage(fmt::format("{}: no such file", path.string()));
-  if (std::filesystem::is_directory(status)) failUsage(fmt::format("{}: is a folder; a file would be right", path.string()));
+  if (std::filesystem::is_directory(status))
+    failUsage(fmt::format("{}: is a folder; a file would be right", path.string()));
   std::ifstream file(path, std::ios::binary);
   std::string text(std::istreambuf_iterator<char>(file), {});
   if (!file) failUsage(fmt::format("{}: cannot be read", path.string()));
   if (text.empty()) failUsage(fmt::format("{}: is empty", path.string()));
   return text;
-}
-
-void writeFile(const std::filesystem::path& path, std::string_view text) {
-  const std::filesystem::path beside = fmt::format("{}.{}.tmp", path.string(), getpid());
-  std::error_code error;
-  {
-    std::ofstream file(beside, std::ios::binary);
-    file.write(text.data(), static_cast<std::streamsize>(text.size()));
-    file.close();
-    if (file) std::filesystem::rename(beside, path, error);
-    if (file && !error) return;
-  }
-  std::error_code ignored;
-  std::filesystem::remove(beside, ignored);
-  fail(fmt::format("{}: cannot be written{}", path.string(), error ? ": " + error.message() : ""));
 }
 
 bool Lines::takeLine() {
@@ -128,7 +113,8 @@ std::optional<float> toReal(std::string_view word) {
   word = withoutPlus(word);
   float value = 0;
   auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  // What is too small for float32 is a number too (0 or a denormal); from_chars alone does not tell it from one too large.
+  // What is too small for float32 is a number too (0 or a denormal); from_chars alone does not tell it from one too
+  // large.
   if (error == std::errc::result_out_of_range) {
     double wide = 0;
     error = std::from_chars(word.data(), word.data() + word.size(), wide).ec;

@@ -12,8 +12,6 @@ namespace tessera {
 
 /// The whole file. Throws kUsage when it is missing, a folder, unreadable or empty.
 std::string readFile(const std::filesystem::path& path);
-/// Writes beside the name and renames. Throws kFailure.
-void writeFile(const std::filesystem::path& path, std::string_view text);
 
 class Lines {
  public:
