@@ -19,8 +19,9 @@ vk::raii::Device makeDevice(const Adapter& adapter) {
   vk::PhysicalDeviceFeatures features;
   features.shaderInt64 = adapter.features.shaderInt64;
   features.shaderFloat64 = adapter.features.shaderFloat64;
-  features.geometryShader =
-      adapter.features.geometryShader;  // gl_PrimitiveID in the fragment shader of the draw baseline
+  // For the draw baseline: gl_PrimitiveID in fragment shaders, and large meshes.
+  features.geometryShader = adapter.features.geometryShader;
+  features.fullDrawIndexUint32 = adapter.features.fullDrawIndexUint32;
   const float priority = 1.0f;
   const vk::DeviceQueueCreateInfo queue({}, adapter.queueFamily, 1, &priority);
   const vk::DeviceCreateInfo info({}, queue, {}, {}, &features, &features12);
