@@ -5,6 +5,9 @@ option(TESSERA_VALIDATION "Vulkan devices of the command line load the validatio
 add_library(tessera_common INTERFACE)
 target_include_directories(tessera_common INTERFACE ${PROJECT_SOURCE_DIR})
 target_compile_options(tessera_common INTERFACE -Wall -Wextra -Werror)
+if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+  target_compile_options(tessera_common INTERFACE -Wno-restrict)  # GCC bug 105651: false positives inside std::string
+endif()
 if(TESSERA_VALIDATION)
   target_compile_definitions(tessera_common INTERFACE TESSERA_VALIDATION)
 endif()
