@@ -120,6 +120,7 @@ class Planner {
   void geometry() {
     plan_.transform = !scene_.positions.empty();
     note("transform", plan_.transform, plan_.transform ? "positions are in object space" : "positions are given in clip space");
+    note("project", true, "vertices are snapped once each");
     note("setup", true, "triangles become snapped, oriented pieces");
 
     const bool crosses = mayCross(scene_);
@@ -130,7 +131,7 @@ class Planner {
     const bool orthographic = isOrthographic(scene_);
     plan_.perspective = choose("projection", full_ || !orthographic ? "perspective" : "orthographic") == "perspective";
     if (!plan_.perspective && !orthographic) failUsage("projection=orthographic: w is not 1 at every vertex of this scene; leave projection unset");
-    note("setup: perspective division", plan_.perspective, orthographic ? "w is 1 at every vertex" : "w varies");
+    note("project: perspective division", plan_.perspective, orthographic ? "w is 1 at every vertex" : "w varies");
 
     const std::string cull = choose("cull", "none");
     note("setup: cull by facing", cull != "none", cull == "none" ? "not asked for (cull)" : "cull=" + cull);

@@ -14,7 +14,7 @@
 namespace tessera {
 namespace {
 
-constexpr std::uint64_t kPieceBytes = 40, kItemBytes = 8;   // slang/layout.slang: Piece, Item
+constexpr std::uint64_t kCornerBytes = 16, kPieceBytes = 40, kItemBytes = 8;   // slang/layout.slang: Corner, Piece, Item
 constexpr std::uint32_t kBlock = 64;                        // pixels; bands begin on a row of blocks, and so of cells and tiles
 constexpr std::uint32_t kScanBlock = 1024;                  // slang/rasterizer/scan.slang: kBlock
 constexpr std::uint32_t kPiecesOfTriangle = 7;              // a triangle cut by six planes has nine corners
@@ -83,6 +83,7 @@ class FrameRun {
     } else {
       passes_.write("clipSpace", scene_.clip);
     }
+    passes_.buffer("corners", vertices * kCornerBytes);
     if (value("shade") == "smooth") passes_.write("normals", scene_.normals);
     passes_.buffer("counters", 8 * kernelCounterCount());
     for (const char* field : {"triangleCount", "triangleBase", "extraCapacity", "itemCapacity", "extraCount", "itemCount", "entryCapacity", "queueCapacity", "entryBegin", "entryRange", "loadFrame", "commitPass", "scanCount", "scanTop"})
@@ -138,7 +139,7 @@ class FrameRun {
 
     counted_.clear();
     clear();
-    if (frame_.plan.transform) passes_.overElements("transform", scene_.vertexCount());
+    passes_.overElements(frame_.plan.transform ? "transform" : "project", scene_.vertexCount());
     // Ids of the second pass are those of the final depths, so the first pass sees all batches before.
     const std::uint32_t commitPasses = commit_ == "two-pass" ? 2 : 1;
     for (std::uint32_t pass = 0; pass < commitPasses; ++pass)

@@ -10,6 +10,7 @@ const std::vector<Stage>& stages() {
       {"clear", "rasterizer/clear.slang", "clearVisibility"},
       {"clear-packed", "rasterizer/clear.slang", "clearPacked"},
       {"transform", "rasterizer/transform.slang", "transform"},
+      {"project", "rasterizer/transform.slang", "project"},
       {"setup", "rasterizer/setup.slang", "setup"},
       {"bin-count", "rasterizer/bin.slang", "binCount"},
       {"scan-blocks", "rasterizer/scan.slang", "scanBlocks"},
@@ -28,7 +29,7 @@ std::vector<std::string> stagesOf(const Plan& plan) {
   const std::string commit = v.get("commit"), binning = v.get("binning");
   std::vector<std::string> names;
   if (plan.clear && commit != "count") names.push_back(commit == "depth32+id32" ? "clear-packed" : "clear");
-  if (plan.transform) names.push_back("transform");
+  names.push_back(plan.transform ? "transform" : "project");
   names.push_back("setup");
   if (binning == "exact") names.push_back("bin-count");
   if (binning == "exact" || (binning == "queue" && v.get("overflow") == "retry"))

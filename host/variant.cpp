@@ -28,7 +28,7 @@ std::string shadeMode(int mode) {
 }
 
 std::vector<Axis> makeAxes() {
-  const std::vector<std::string> setup{"setup"}, bin{"bin-count", "bin-insert"}, raster{"raster-tiles", "raster-items"};
+  const std::vector<std::string> setup{"setup"}, vertex{"transform", "project", "setup"}, bin{"bin-count", "bin-insert"}, raster{"raster-tiles", "raster-items"};
   return {
       {"route", "how the kernels reach the machine", "Slang user guide, chapter on targets", {},
        {{"cpp", "Slang to C++, on the CPU device", "", kImage},
@@ -38,11 +38,11 @@ std::vector<Axis> makeAxes() {
       {"plan", "whether the planner leaves out what a scene does not need", "", {},
        {{"planned", "what the scene does not need is left out", ""}, {"full", "every stage and test runs", ""}},
        0, 0, "planned"},
-      {"clip", "clipping in setup", "Sutherland and Hodgman 1974", setup,
+      {"clip", "clipping in setup", "Sutherland and Hodgman 1974", vertex,
        {{"on", "each triangle is tried against the six planes", flag("kClip", true)},
         {"off", "no plane is tried; refused where the scene crosses one", flag("kClip", false)}},
        0, 0, "off where no triangle can cross a plane"},
-      {"projection", "the perspective division in setup", "", setup,
+      {"projection", "the perspective division", "", vertex,
        {{"perspective", "x, y and z are divided by w", flag("kPerspective", true)},
         {"orthographic", "w is 1 and nothing is divided; refused where it is not", flag("kPerspective", false)}},
        0, 0, "orthographic where every w is 1"},
