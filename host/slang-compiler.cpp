@@ -31,28 +31,25 @@ std::string trimmed(const std::string& text) {
   return first == std::string::npos ? "" : text.substr(first);
 }
 
-/// The first error in a compiler's output as one line. slangc writes "error[E30015]: title", then " --> file:line:column", then
-/// the source with "^^^ message" under it; the others, and older slangcs, write all on one line.
+/// The first error in a compiler's output that has a place, or the first one, as one line. slangc writes "error[E30015]: title", then
+/// " --> file:line:column", then the source with "^^^ message" under it; the others, and older slangcs, write all on one line.
 std::string firstError(const std::string& output) {
   std::istringstream lines(output);
-  std::string line, title, place;
+  std::string line, title, place, first;
   while (std::getline(lines, line)) {
-    if (title.empty()) {
-      const bool isError = line.find("error") != std::string::npos || line.find("ERROR") != std::string::npos;
-      if (!isError) continue;
-      if (line.rfind("error[", 0) != 0 && line.rfind("fatal error[", 0) != 0) return line;
-      title = line;
-    } else if (place.empty()) {
-      const std::size_t arrow = line.find("--> ");
-      if (arrow == std::string::npos) return title;
-      place = line.substr(arrow + 4);
-    } else if (const std::size_t caret = line.find('^'); caret != std::string::npos) {
+    const bool isTitle = line.rfind("error[", 0) == 0 || line.rfind("fatal error[", 0) == 0;
+    const bool isError = isTitle || line.find("error") != std::string::npos || line.find("ERROR") != std::string::npos;
+    if (first.empty() && isError) first = line;
+    if (isError && !isTitle && title.empty()) return first;
+    if (isTitle && place.empty()) title = line;
+    if (const std::size_t arrow = line.find(" --> "); arrow != std::string::npos && !title.empty() && place.empty()) place = line.substr(arrow + 5);
+    if (const std::size_t caret = line.find('^'); caret != std::string::npos && !place.empty()) {
       const std::string message = trimmed(line.substr(caret));
       return fmt::format("{}: {}", place, message.empty() ? title : title.substr(0, title.find(':') + 1) + " " + message);
     }
   }
-  if (!title.empty()) return place.empty() ? title : place + ": " + title;
-  return output.empty() ? "it says nothing" : output.substr(0, output.find('\n'));
+  if (first.empty()) return output.empty() ? "it says nothing" : output.substr(0, output.find('\n'));
+  return place.empty() ? first : place + ": " + title;
 }
 
 std::string describe(const KernelRequest& request) {

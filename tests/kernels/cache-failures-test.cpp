@@ -1,0 +1,75 @@
+// What goes wrong with sources, compilers and folders: one line that says where and what.
+#include <catch2/catch.hpp>
+
+#include "fixture.h"
+
+namespace tessera::test {
+namespace fs = std::filesystem;
+
+TEST_CASE("A Slang error comes with its place and message and the variant") {
+  const Workshop shop;
+  writeText(shop.slang / "step-size.slang", "module step_size;\n\npublic float step() { return zork; }\n");
+  for (const Route route : {Route::kCpp, Route::kSpirv, Route::kGlsl}) {
+    const std::string line = lineOf(ExitCode::kFailure, [&] { shop.open().get(scaleRequest(route)); });
+    CHECK(contains(line, "kernel scale"));
+    CHECK(contains(line, "[step=1]"));
+    CHECK(contains(line, "step-size.slang:3"));
+    CHECK(contains(line, "zork"));
+  }
+  CHECK(countFiles(shop.cache, ".tmp") == 0);
+  CHECK(countFiles(shop.cache, "interface.json") == 0);
+}
+
+TEST_CASE("A C++ error comes with the compiler's message") {
+  const Workshop shop;
+  writeText(shop.slang / "atomics-cpp.h", "int tesseraBroken() { return undeclaredThing; }\n");
+  const std::string line = lineOf(ExitCode::kFailure, [&] { shop.open().get(scaleRequest()); });
+  CHECK(contains(line, "[step=1]"));
+  CHECK(contains(line, "kernel.cpp:1"));
+  CHECK(contains(line, "undeclaredThing"));
+}
+
+TEST_CASE("Missing sources are named") {
+  const Workshop shop;
+  KernelRequest request = scaleRequest();
+  request.source = "rasterizer/none.slang";
+  CHECK(contains(lineOf(ExitCode::kFailure, [&] { shop.open().get(request); }), "rasterizer/none.slang"));
+  CHECK(contains(lineOf(ExitCode::kUsage, [&] { KernelCache({shop.cache, shop.slang / "no-such-folder", false, ""}); }), "no-such-folder"));
+}
+
+TEST_CASE("A cache folder that cannot be written is one clear line") {
+  const Workshop shop;
+  writeText(shop.folder.path() / "file", "not a folder");
+  const std::string line =
+      lineOf(ExitCode::kFailure, [&] { KernelCache({shop.folder.path() / "file" / "cache", shop.slang, false, ""}).get(scaleRequest()); });
+  CHECK(contains(line, "file/cache"));
+  CHECK(contains(line, "TESSERA_CACHE"));
+}
+
+TEST_CASE("A file that slangc reads unknown to the key is refused") {
+  const Workshop shop;
+  writeText(shop.slang / "hidden.slang", "module hidden;\npublic float more() { return 1.0; }\n");
+  writeText(shop.slang / "step-size.slang", "module step_size;\nimport\n  hidden;\npublic float step() { return more(); }\n");
+  const std::string line = lineOf(ExitCode::kFailure, [&] { shop.open().get(scaleRequest()); });
+  CHECK(contains(line, "hidden.slang"));
+  CHECK(contains(line, "no import names it"));
+}
+
+TEST_CASE("A kernel whose SPIR-V is not exact is refused on both Vulkan routes") {
+  const Workshop shop;
+  writeText(shop.slang / "step-size.slang", "module step_size;\nimport variant;\npublic float step() { return lerp(1.0, values[0], values[1]); }\nStructuredBuffer<float> values;\n");
+  for (const Route route : {Route::kSpirv, Route::kGlsl}) {
+    const std::string line = lineOf(ExitCode::kFailure, [&] { shop.open().get(scaleRequest(route)); });
+    CHECK(contains(line, "not exact"));
+    CHECK(contains(line, "FMix"));
+  }
+}
+
+TEST_CASE("A resource that no host can bind is refused") {
+  const Workshop shop;
+  writeText(shop.slang / "step-size.slang", "module step_size;\nByteAddressBuffer raw;\npublic float step() { return asfloat(raw.Load(0)); }\n");
+  for (const Route route : {Route::kCpp, Route::kSpirv})
+    CHECK(contains(lineOf(ExitCode::kFailure, [&] { shop.open().get(scaleRequest(route)); }), "`raw`"));
+}
+
+}  // namespace tessera::test

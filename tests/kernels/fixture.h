@@ -1,0 +1,46 @@
+// A folder of its own for each test: Slang sources, which tests change, and a kernel cache.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "host/error.h"
+#include "host/files.h"
+#include "host/kernel-cache.h"
+
+namespace tessera::test {
+
+void writeText(const std::filesystem::path& path, const std::string& text);
+/// Sets an environment variable for a while; an empty value unsets it.
+class Environment {
+ public:
+  Environment(const char* name, const std::string& value);
+  ~Environment();
+  Environment(const Environment&) = delete;
+
+ private:
+  std::string name_, before_;
+};
+
+struct Workshop {
+  TemporaryFolder folder;
+  std::filesystem::path slang, cache;
+
+  /// Sources: rasterizer/scale.slang (entry scaleAll: results[i] = (values[i] * frame.factor + step()) / 3), which imports step_size,
+  /// which is step-size.slang, which imports the variant module; unrelated.slang is imported by none.
+  Workshop();
+  KernelCache open(bool boundsChecks = false, const std::string& flags = "") const;
+};
+
+inline constexpr const char* kVariant = "module variant;\npublic static const int kStep = 1;\n";
+KernelRequest scaleRequest(Route route = Route::kCpp, const std::string& variant = kVariant);
+
+/// The line of the Error that `action` throws, after checking its code; fails the test if it throws none or says more than a line.
+std::string lineOf(ExitCode code, const std::function<void()>& action);
+
+bool contains(const std::string& text, const std::string& part);
+/// Files in a folder, at any depth, whose name ends so.
+std::size_t countFiles(const std::filesystem::path& folder, const std::string& ending);
+
+}  // namespace tessera::test
