@@ -15,31 +15,51 @@ struct Guard {
 
 float distance(Plane plane, const glm::vec4& v, const Guard& guard) {
   switch (plane) {
-    case Plane::kNear: return v.z;
-    case Plane::kFar: return v.w - v.z;
-    case Plane::kLeft: return guard.x * v.w + v.x;
-    case Plane::kRight: return guard.x * v.w - v.x;
-    case Plane::kTop: return guard.y * v.w + v.y;
-    case Plane::kBottom: return guard.y * v.w - v.y;
+    case Plane::kNear:
+      return v.z;
+    case Plane::kFar:
+      return v.w - v.z;
+    case Plane::kLeft:
+      return guard.x * v.w + v.x;
+    case Plane::kRight:
+      return guard.x * v.w - v.x;
+    case Plane::kTop:
+      return guard.y * v.w + v.y;
+    case Plane::kBottom:
+      return guard.y * v.w - v.y;
   }
   return 0;
 }
 
 void putOnto(Plane plane, glm::vec4& v, const Guard& guard) {
   switch (plane) {
-    case Plane::kNear: v.z = 0; break;
-    case Plane::kFar: v.z = v.w; break;
-    case Plane::kLeft: v.x = -(guard.x * v.w); break;
-    case Plane::kRight: v.x = guard.x * v.w; break;
-    case Plane::kTop: v.y = -(guard.y * v.w); break;
-    case Plane::kBottom: v.y = guard.y * v.w; break;
+    case Plane::kNear:
+      v.z = 0;
+      break;
+    case Plane::kFar:
+      v.z = v.w;
+      break;
+    case Plane::kLeft:
+      v.x = -(guard.x * v.w);
+      break;
+    case Plane::kRight:
+      v.x = guard.x * v.w;
+      break;
+    case Plane::kTop:
+      v.y = -(guard.y * v.w);
+      break;
+    case Plane::kBottom:
+      v.y = guard.y * v.w;
+      break;
   }
 }
 
-// From the inside end to the outside end, whichever way the edge runs: the triangle on its other side gets the same point.
+// From the inside end to the outside end, whichever way the edge runs: the triangle on its other side gets the same
+// point.
 glm::vec4 cross(Plane plane, const glm::vec4& in, float dIn, const glm::vec4& out, float dOut, const Guard& guard) {
   const float t = dIn / (dIn - dOut);
-  glm::vec4 p(in.x + t * (out.x - in.x), in.y + t * (out.y - in.y), in.z + t * (out.z - in.z), in.w + t * (out.w - in.w));
+  glm::vec4 p(in.x + t * (out.x - in.x), in.y + t * (out.y - in.y), in.z + t * (out.z - in.z),
+              in.w + t * (out.w - in.w));
   putOnto(plane, p, guard);
   return p;
 }

@@ -39,13 +39,14 @@ std::optional<Snapped> project(const glm::vec4& v, float halfWidth, float halfHe
   return Snapped{*x, *y, z > 0 ? (z < 1 ? z : 1.0f) : 0.0f};
 }
 
-// Twice the signed area in (1/256 pixel)^2, at most 2^51; negative is counter-clockwise on the screen, whose y points down.
+// Twice the signed area in (1/256 pixel)^2, at most 2^51; negative is counter-clockwise on the screen, whose y points
+// down.
 std::int64_t doubleArea(const Snapped& a, const Snapped& b, const Snapped& c) {
   return std::int64_t{b.x - a.x} * (c.y - a.y) - std::int64_t{c.x - a.x} * (b.y - a.y);
 }
 
-void addPiece(std::uint32_t id, const glm::vec4& a, const glm::vec4& b, const glm::vec4& c, const Scene& scene, Cull cull,
-              std::vector<Piece>& pieces, Counts& counts) {
+void addPiece(std::uint32_t id, const glm::vec4& a, const glm::vec4& b, const glm::vec4& c, const Scene& scene,
+              Cull cull, std::vector<Piece>& pieces, Counts& counts) {
   const float halfWidth = static_cast<float>(scene.width) * 0.5f;
   const float halfHeight = static_cast<float>(scene.height) * 0.5f;
   const auto v0 = project(a, halfWidth, halfHeight);

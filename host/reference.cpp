@@ -24,9 +24,7 @@ Wide edge(const Piece& t, int a, int b, Wide px, Wide py) {
   return Wide{t.x[b] - t.x[a]} * (py - t.y[a]) - Wide{t.y[b] - t.y[a]} * (px - t.x[a]);
 }
 
-bool isTopOrLeft(const Piece& t, int a, int b) {
-  return (t.y[b] == t.y[a] && t.x[b] > t.x[a]) || t.y[b] < t.y[a];
-}
+bool isTopOrLeft(const Piece& t, int a, int b) { return (t.y[b] == t.y[a] && t.x[b] > t.x[a]) || t.y[b] < t.y[a]; }
 
 Wide floorDivide(Wide a, Wide b) {  // b > 0
   const Wide q = a / b;
@@ -44,8 +42,10 @@ Range columnsInside(const Piece& t, int a, int b, std::int64_t row, Range within
   const Wide base = edge(t, a, b, sampleAt(0), sampleAt(row));
   const Wide slope = Wide{t.y[a] - t.y[b]} * 256;
   const Wide least = isTopOrLeft(t, a, b) ? 0 : 1;
-  if (slope > 0) within.first = static_cast<std::int64_t>(std::max<Wide>(within.first, ceilDivide(least - base, slope)));
-  if (slope < 0) within.last = static_cast<std::int64_t>(std::min<Wide>(within.last, floorDivide(base - least, -slope)));
+  if (slope > 0)
+    within.first = static_cast<std::int64_t>(std::max<Wide>(within.first, ceilDivide(least - base, slope)));
+  if (slope < 0)
+    within.last = static_cast<std::int64_t>(std::min<Wide>(within.last, floorDivide(base - least, -slope)));
   if (slope == 0 && base < least) within.last = within.first - 1;
   return within;
 }
@@ -66,7 +66,10 @@ Range coveredRows(const Piece& t, std::uint32_t height) {
 class DepthPlane {
  public:
   explicit DepthPlane(const Piece& t)
-      : piece_(t), r_(1.0f / static_cast<float>(edge(t, 0, 1, t.x[2], t.y[2]))), d1_(t.z[1] - t.z[0]), d2_(t.z[2] - t.z[0]) {
+      : piece_(t),
+        r_(1.0f / static_cast<float>(edge(t, 0, 1, t.x[2], t.y[2]))),
+        d1_(t.z[1] - t.z[0]),
+        d2_(t.z[2] - t.z[0]) {
     const auto slope = [&](std::int32_t difference) { return (static_cast<float>(difference) * 256.0f) * r_; };
     zx_ = slope(t.y[2] - t.y[0]) * d1_ + slope(t.y[0] - t.y[1]) * d2_;
     zy_ = slope(t.x[0] - t.x[2]) * d1_ + slope(t.x[1] - t.x[0]) * d2_;
@@ -91,8 +94,9 @@ class DepthPlane {
   float r_, d1_, d2_, zx_ = 0, zy_ = 0, zmin_ = 0, zmax_ = 0;
 };
 
-// Exact depth of the snapped piece at a covered sample: the mean of its vertices' depths weighted by exact edge functions. All
-// terms are >= 0, each product of 52 and 24 bits is exact in 113, so the result is right to about 2^-112 of itself.
+// Exact depth of the snapped piece at a covered sample: the mean of its vertices' depths weighted by exact edge
+// functions. All terms are >= 0, each product of 52 and 24 bits is exact in 113, so the result is right to about 2^-112
+// of itself.
 Exact exactDepth(const Piece& t, std::int64_t i, std::int64_t j) {
   const auto weight = [&](int a, int b) { return static_cast<Exact>(edge(t, a, b, sampleAt(i), sampleAt(j))); };
   const Exact w0 = weight(1, 2), w1 = weight(2, 0), w2 = weight(0, 1);

@@ -1,8 +1,7 @@
 // The oracle's clipping: each plane by hand, shared edges, rasters and triangles as large as they get.
-#include <catch2/catch.hpp>
-
 #include <algorithm>
 #include <bit>
+#include <catch2/catch.hpp>
 #include <random>
 
 #include "host/reference-clip.h"
@@ -93,7 +92,8 @@ TEST_CASE("a triangle inside the guard band is not clipped however far it lies o
 TEST_CASE("a clipped triangle keeps its id in every piece and counts once") {
   Scene scene;
   scene.width = scene.height = 64;
-  scene.clip = {{0, 0, 0, 1}, {0.01f, 0, 0, 1}, {0, 0.01f, 0, 1}, {-1, -1, -0.5f, 1}, {1, -1, 0.5f, 1}, {-1, 1, 1.5f, 1}};
+  scene.clip = {{0, 0, 0, 1},       {0.01f, 0, 0, 1}, {0, 0.01f, 0, 1},
+                {-1, -1, -0.5f, 1}, {1, -1, 0.5f, 1}, {-1, 1, 1.5f, 1}};
   scene.triangles = {{0, 1, 2}, {3, 4, 5}};
   reference::Counts counts;
   const auto pieces = reference::pieces(scene, {}, &counts);
@@ -108,11 +108,13 @@ TEST_CASE("two triangles that share an edge get the same clip point whichever wa
   const auto uniform = [&] { return static_cast<float>(random() * 0x1p-31 - 1); };
   int cut = 0;
   for (int round = 0; round < 20'000; ++round) {
-    const vec4 a(uniform() * 0.5f, uniform() * 0.5f, 0.25f + 0.2f * uniform(), 1 + 0.5f * uniform());  // inside all planes
+    const vec4 a(uniform() * 0.5f, uniform() * 0.5f, 0.25f + 0.2f * uniform(),
+                 1 + 0.5f * uniform());  // inside all planes
     const auto anywhere = [&] { return vec4(1e5f * uniform(), 1e5f * uniform(), 3 * uniform(), 2 * uniform()); };
     const vec4 b = anywhere(), c = anywhere(), d = anywhere();
     const auto one = reference::clip({a, b, c}, 64, 64).polygon, two = reference::clip({b, a, d}, 64, 64).polygon;
-    // The shared edge ends at `a` and at the last point that clipping left on it: after `a` in one, before it in the other.
+    // The shared edge ends at `a` and at the last point that clipping left on it: after `a` in one, before it in the
+    // other.
     const auto at = [&](const Polygon& p) {
       return std::find_if(p.begin(), p.end(), [&](const vec4& v) { return sameBits(v, a); }) - p.begin();
     };
@@ -127,20 +129,24 @@ TEST_CASE("two triangles that share an edge get the same clip point whichever wa
 }
 
 TEST_CASE("rounding can leave more corners than planes would in real numbers") {
-  // Found by search: with the last plane crossing a bent polygon four times, 10 corners. Fixed arrays of 9 would overflow.
+  // Found by search: with the last plane crossing a bent polygon four times, 10 corners. Fixed arrays of 9 would
+  // overflow.
   const auto clipped = reference::clip({vec4(0.5f, -0x1.16c2p-133f, 0x1.b38fb8p-127f, -1),
                                         vec4(0x1.16c2p-133f, -0x1.ff933cp+127f, -0x1.16c2p-133f, 0x1.ff933cp+127f),
-                                        vec4(0x1.93e594p+99f, 0x1.ff933cp+127f, 0x1.16c2p-133f, 0x1.93e594p+99f)}, 333, 32768);
+                                        vec4(0x1.93e594p+99f, 0x1.ff933cp+127f, 0x1.16c2p-133f, 0x1.93e594p+99f)},
+                                       333, 32768);
   CHECK(clipped.polygon.size() == 10);
 }
 
 TEST_CASE("a quad from behind the eye to the horizon is hit once also where it is clipped") {
-  // A floor below the eye: y = 1 (down), from 8 behind to 64 ahead; w is the distance ahead, and z reaches 0 at 0.5 ahead.
+  // A floor below the eye: y = 1 (down), from 8 behind to 64 ahead; w is the distance ahead, and z reaches 0 at 0.5
+  // ahead.
   Scene scene;
   scene.width = scene.height = 256;
   const auto corner = [](float x, float ahead) { return vec4(x, 1, (ahead - 0.5f) * 0.75f, ahead); };
   scene.clip = {corner(-1000, -8), corner(1000, -8), corner(1000, 64), corner(-1000, 64)};
-  for (const auto& triangles : {std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}}, std::vector<Triangle>{{1, 2, 3}, {1, 3, 0}}}) {
+  for (const auto& triangles :
+       {std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}}, std::vector<Triangle>{{1, 2, 3}, {1, 3, 0}}}) {
     scene.triangles = triangles;
     const auto result = reference::render(scene);
     CHECK(result.counts.clipped == 2);
@@ -160,7 +166,8 @@ TEST_CASE("a quad far past every side of the guard band covers the raster once")
   scene.height = 77;
   for (const float far : {1e6f, 1e12f, 1e30f}) {
     scene.clip = {{-far, -far, 0.5f, 1}, {far, -far, 0.5f, 1}, {far, far, 0.5f, 1}, {-far, far, 0.5f, 1}};
-    for (const auto& triangles : {std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}}, std::vector<Triangle>{{0, 1, 3}, {1, 2, 3}}}) {
+    for (const auto& triangles :
+         {std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}}, std::vector<Triangle>{{0, 1, 3}, {1, 2, 3}}}) {
       scene.triangles = triangles;
       CAPTURE(far);
       CHECK(allHitOnce(reference::render(scene).image));

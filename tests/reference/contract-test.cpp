@@ -1,8 +1,7 @@
 // The oracle, section by section of the contract in rasterizer.h: projection, snapping, orientation, order, depth.
-#include <catch2/catch.hpp>
-
 #include <algorithm>
 #include <bit>
+#include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -50,7 +49,7 @@ TEST_CASE("the transform is four sums in the stated order") {
 
 TEST_CASE("positions snap to the nearest 1/256 pixel and ties to even") {
   // On a raster of 2 x 2 the centre is at X = 256: s = 256 x + 256 is exact.
-  const std::pair<float, int> cases[] = {{10.5f, 10}, {11.5f, 12}, {0.5f, 0},    {1.5f, 2},   {-0.5f, 0}, {-1.5f, -2},
+  const std::pair<float, int> cases[] = {{10.5f, 10}, {11.5f, 12}, {0.5f, 0},  {1.5f, 2},    {-0.5f, 0},   {-1.5f, -2},
                                          {-2.5f, -2}, {7.25f, 7},  {7.75f, 8}, {-7.25f, -7}, {-7.75f, -8}, {3.0f, 3}};
   for (const auto& [s, expected] : cases) {
     Scene scene;
@@ -77,7 +76,8 @@ TEST_CASE("projection multiplies by the rounded reciprocal") {
   std::mt19937 random(3);
   int apart = 0;
   for (int round = 0; round < 2000; ++round) {
-    const float w = 3 + static_cast<float>(random() * 0x1p-32), x = -w * (0.9f + static_cast<float>(random() * 0x1p-36));
+    const float w = 3 + static_cast<float>(random() * 0x1p-32),
+                x = -w * (0.9f + static_cast<float>(random() * 0x1p-36));
     scene.clip = {{x, 0, 0.25f * w, w}, {1, -1, 0, 1}, {1, 1, 0, 1}};
     const volatile float r = 1.0f / w, product = x * r, quotient = x / w;
     REQUIRE(reference::pieces(scene, {})[0].x[0] == snapped(product));
@@ -167,7 +167,8 @@ TEST_CASE("depth has the bits of the contract and stays within its piece") {
     const auto result = reference::render(scene);
     const auto [zmin, zmax] = std::minmax({t.z[0], t.z[1], t.z[2]});
     const auto e = [&](int a, int b, std::int64_t px, std::int64_t py) {
-      return static_cast<float>(std::int64_t{t.x[b] - t.x[a]} * (py - t.y[a]) - std::int64_t{t.y[b] - t.y[a]} * (px - t.x[a]));
+      return static_cast<float>(std::int64_t{t.x[b] - t.x[a]} * (py - t.y[a]) -
+                                std::int64_t{t.y[b] - t.y[a]} * (px - t.x[a]));
     };
     const float r = 1.0f / e(0, 1, t.x[2], t.y[2]), d1 = t.z[1] - t.z[0], d2 = t.z[2] - t.z[0];
     const auto f = [](int n) { return static_cast<float>(n); };
@@ -199,8 +200,8 @@ TEST_CASE("the reported depth error is that against the exact rational depth") {
   for (int round = 0; round < 50; ++round) {
     std::vector<PixelVertex> v;
     for (int k = 0; k < 3; ++k) {
-      v.push_back({static_cast<float>(random() % (kSize * 256)) / 256, static_cast<float>(random() % (kSize * 256)) / 256,
-                   static_cast<float>(random() % 4097) / 4096});
+      v.push_back({static_cast<float>(random() % (kSize * 256)) / 256,
+                   static_cast<float>(random() % (kSize * 256)) / 256, static_cast<float>(random() % 4097) / 4096});
     }
     const Scene scene = inPixels(kSize, kSize, v, {{0, 1, 2}});
     const auto all = reference::pieces(scene, {});
@@ -215,7 +216,8 @@ TEST_CASE("the reported depth error is that against the exact rational depth") {
       std::int64_t numerator = 0, area2 = 0;  // exact depth = numerator / (4096 area2); below 2^60
       for (int a = 0; a < 3; ++a) {
         const int b = (a + 1) % 3, c = (a + 2) % 3;
-        const std::int64_t e = std::int64_t{t.x[c] - t.x[b]} * (py - t.y[b]) - std::int64_t{t.y[c] - t.y[b]} * (px - t.x[b]);
+        const std::int64_t e =
+            std::int64_t{t.x[c] - t.x[b]} * (py - t.y[b]) - std::int64_t{t.y[c] - t.y[b]} * (px - t.x[b]);
         numerator += e * static_cast<std::int64_t>(t.z[a] * 4096);
         area2 += e;
       }
@@ -238,14 +240,21 @@ TEST_CASE("unusable triangles are dropped with their cause and the rest of the i
   const auto good = over(0.5f);
   const Scene clean = inPixels(1, 1, good, {{0, 1, 2}});
   Scene scene = clean;
-  scene.clip.insert(scene.clip.end(), {{kNaN, 0, 0, 1}, {0, kInfinity, 0, 1}, {0, 0, -kInfinity, 1}, {0, 0, 0, kNaN},  // 3 to 6
-                                       {0, 0, 0.5f, 0}, {0, 0, 0, 0}, {0, 0, 0, 1e-40f},                               // 7 to 9
-                                       {1, 0, 0.5f, -1}, {0, 1, 0.5f, -2}, {1, 1, 0.5f, -1}});                         // 10 to 12
-  scene.triangles = {{0, 1, 99}, {0xffffffffu, 1, 2},                // out of range
-                     {0, 3, 1}, {4, 0, 1}, {0, 1, 5}, {6, 1, 0},     // not finite
-                     {10, 11, 12},                                   // behind the eye in every vertex
-                     {0, 1, 8}, {0, 1, 9},                           // w = 0; 1/w = infinity
-                     {1, 1, 2},                                      // repeated vertex
+  scene.clip.insert(scene.clip.end(), {{kNaN, 0, 0, 1},
+                                       {0, kInfinity, 0, 1},
+                                       {0, 0, -kInfinity, 1},
+                                       {0, 0, 0, kNaN},  // 3 to 6
+                                       {0, 0, 0.5f, 0},
+                                       {0, 0, 0, 0},
+                                       {0, 0, 0, 1e-40f},  // 7 to 9
+                                       {1, 0, 0.5f, -1},
+                                       {0, 1, 0.5f, -2},
+                                       {1, 1, 0.5f, -1}});                     // 10 to 12
+  scene.triangles = {{0, 1, 99},   {0xffffffffu, 1, 2},                        // out of range
+                     {0, 3, 1},    {4, 0, 1},           {0, 1, 5}, {6, 1, 0},  // not finite
+                     {10, 11, 12},                                             // behind the eye in every vertex
+                     {0, 1, 8},    {0, 1, 9},                                  // w = 0; 1/w = infinity
+                     {1, 1, 2},                                                // repeated vertex
                      {0, 1, 2}};
   const auto result = reference::render(scene);
   CHECK(result.counts.submitted == 11);

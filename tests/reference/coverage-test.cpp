@@ -1,7 +1,6 @@
 // The oracle's coverage: the top-left rule by hand, closed surfaces hit once, intervals against pixel-by-pixel tests.
-#include <catch2/catch.hpp>
-
 #include <algorithm>
+#include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -88,8 +87,10 @@ TEST_CASE("every sample of a closed rotated grid is hit exactly once") {
     for (std::uint32_t v = 0; v < kQuads; ++v) {
       for (std::uint32_t u = 0; u < kQuads; ++u) {
         const std::uint32_t a = v * (kQuads + 1) + u, b = a + 1, c = a + kQuads + 2, d = a + kQuads + 1;
-        if ((u + v) % 2) triangles.insert(triangles.end(), {{a, b, c}, {a, c, d}});
-        else triangles.insert(triangles.end(), {{a, b, d}, {b, c, d}});
+        if ((u + v) % 2)
+          triangles.insert(triangles.end(), {{a, b, c}, {a, c, d}});
+        else
+          triangles.insert(triangles.end(), {{a, b, d}, {b, c, d}});
       }
     }
     CAPTURE(degrees);
@@ -108,10 +109,14 @@ TEST_CASE("every sample of a closed fan of 100 thousand slivers is hit exactly o
   for (std::uint32_t i = 0; i < kSlivers; ++i) {
     double s = 2 * (wide + tall) * i / kSlivers;
     double x = left, y = top;
-    if (s < wide) x += s;
-    else if ((s -= wide) < tall) x += wide, y += s;
-    else if ((s -= tall) < wide) x += wide - s, y += tall;
-    else y += tall - (s - wide);
+    if (s < wide)
+      x += s;
+    else if ((s -= wide) < tall)
+      x += wide, y += s;
+    else if ((s -= tall) < wide)
+      x += wide - s, y += tall;
+    else
+      y += tall - (s - wide);
     vertices.push_back({static_cast<float>(x), static_cast<float>(y)});
     triangles.push_back({0, i + 1, (i + 1) % kSlivers + 1});
   }
@@ -132,9 +137,12 @@ TEST_CASE("the interval of each row is what testing pixel by pixel gives") {
     for (int v = 0; v < 3; ++v) {
       const auto coordinate = [&] {
         switch (below(3)) {
-          case 0: return static_cast<float>(below(kSize * 256)) / 256;
-          case 1: return static_cast<float>(below(kSize * 2)) / 2;
-          default: return static_cast<float>(below(4096)) / 2 - 1024;
+          case 0:
+            return static_cast<float>(below(kSize * 256)) / 256;
+          case 1:
+            return static_cast<float>(below(kSize * 2)) / 2;
+          default:
+            return static_cast<float>(below(4096)) / 2 - 1024;
         }
       };
       const float x = coordinate(), y = coordinate();

@@ -1,0 +1,158 @@
+// How two framebuffers differ.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "host/error.h"
+#include "host/image.h"
+
+namespace tessera {
+namespace {
+
+enum class Part { kNone, kCoverage, kId, kDepth, kHits, kColour };
+
+// What both framebuffers hold, read pixel by pixel.
+class Pair {
+ public:
+  Pair(const Framebuffer& a, const Framebuffer& b)
+      : a_(a),
+        b_(b),
+        ids_(both(a.ids, b.ids)),
+        depth_(both(a.depth, b.depth)),
+        hits_(both(a.hits, b.hits)),
+        colour_(both(a.colour, b.colour)) {
+    if (a.width != b.width || a.height != b.height) {
+      failUsage(fmt::format("the images are {} x {} and {} x {} pixels; they should have one size", a.width, a.height,
+                            b.width, b.height));
+    }
+    if (!ids_ && !depth_ && !hits_ && !colour_) failUsage("the images have no channel in common: nothing to compare");
+  }
+
+  bool hasColour() const { return colour_; }
+  bool covered(std::size_t k) const { return ids_ ? a_.ids[k] != kNoTriangle : hits_ ? a_.hits[k] != 0 : true; }
+  bool coverageDiffers(std::size_t k) const {
+    if (ids_) return (a_.ids[k] == kNoTriangle) != (b_.ids[k] == kNoTriangle);
+    return hits_ && (a_.hits[k] == 0) != (b_.hits[k] == 0);
+  }
+  bool idDiffers(std::size_t k) const { return ids_ && a_.ids[k] != b_.ids[k]; }
+  bool depthDiffers(std::size_t k) const {
+    return depth_ && std::bit_cast<std::uint32_t>(a_.depth[k]) != std::bit_cast<std::uint32_t>(b_.depth[k]);
+  }
+  bool hitsDiffer(std::size_t k) const { return hits_ && a_.hits[k] != b_.hits[k]; }
+  bool colourDiffers(std::size_t k) const {
+    return colour_ && std::memcmp(&a_.colour[k], &b_.colour[k], sizeof(glm::vec3)) != 0;
+  }
+
+  /// The most telling difference of a pixel.
+  Part part(std::size_t k) const {
+    return coverageDiffers(k) ? Part::kCoverage
+           : idDiffers(k)     ? Part::kId
+           : depthDiffers(k)  ? Part::kDepth
+           : hitsDiffer(k)    ? Part::kHits
+           : colourDiffers(k) ? Part::kColour
+                              : Part::kNone;
+  }
+
+ private:
+  template <typename T>
+  static bool both(const std::vector<T>& a, const std::vector<T>& b) {
+    return !a.empty() && !b.empty();
+  }
+  const Framebuffer &a_, &b_;
+  bool ids_, depth_, hits_, colour_;
+};
+
+// float32 numbers in order, -0 and +0 at 0: neighbours are 1 apart.
+std::int64_t stepOf(float value) {
+  const auto bits = std::bit_cast<std::uint32_t>(value);
+  const auto magnitude = static_cast<std::int64_t>(bits & 0x7fffffffu);
+  return bits >> 31 ? -magnitude : magnitude;
+}
+
+double squaredDistance(const glm::vec3& a, const glm::vec3& b) {
+  double sum = 0;
+  for (int c = 0; c < 3; ++c) {
+    const double d = static_cast<double>(a[c]) - static_cast<double>(b[c]);
+    sum += d * d;
+  }
+  return sum;
+}
+
+// sRGB bytes to linear.
+glm::vec3 linear(int r, int g, int b) {
+  const auto channel = [](int v) {
+    const float c = static_cast<float>(v) / 255;
+    return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f);
+  };
+  return {channel(r), channel(g), channel(b)};
+}
+
+}  // namespace
+
+Difference compare(const Framebuffer& a, const Framebuffer& b) {
+  const Pair pair(a, b);
+  Difference result;
+  result.pixels = a.pixels();
+  double squares = 0;
+  for (std::size_t k = 0; k < a.pixels(); ++k) {
+    const bool coverage = pair.coverageDiffers(k), depth = pair.depthDiffers(k);
+    result.coverage += coverage;
+    result.id += pair.idDiffers(k);
+    result.depth += depth;
+    result.hits += pair.hitsDiffer(k);
+    result.colour += pair.colourDiffers(k);
+    if (depth && !coverage) {
+      const double apart = std::abs(static_cast<double>(a.depth[k]) - static_cast<double>(b.depth[k]));
+      const auto steps = static_cast<double>(std::abs(stepOf(a.depth[k]) - stepOf(b.depth[k])));
+      result.depthMaxAbs =
+          std::max(result.depthMaxAbs, std::isnan(apart) ? std::numeric_limits<double>::infinity() : apart);
+      result.depthMaxUlp = std::max(result.depthMaxUlp, steps);
+    }
+    if (pair.colourDiffers(k)) squares += squaredDistance(a.colour[k], b.colour[k]);
+    if (result.firstX < 0 && pair.part(k) != Part::kNone) {
+      result.firstX = static_cast<std::int64_t>(k % a.width);
+      result.firstY = static_cast<std::int64_t>(k / a.width);
+    }
+  }
+  const double mean = squares / (3 * static_cast<double>(a.pixels()));
+  result.psnr =
+      pair.hasColour() ? -10 * std::log10(mean) : std::numeric_limits<double>::quiet_NaN();  // log10(0) is -infinity
+  return result;
+}
+
+std::vector<glm::vec3> differencePicture(const Framebuffer& a, const Framebuffer& b) {
+  // Colours that stay apart for colour-blind readers (M. Okabe, K. Ito: Color Universal Design, 2008).
+  const glm::vec3 vermilion = linear(213, 94, 0), blue = linear(0, 114, 178), yellow = linear(240, 228, 66),
+                  purple = linear(204, 121, 167);
+  const glm::vec3 drawn = linear(190, 190, 190), empty = linear(230, 230, 230);
+  const Pair pair(a, b);
+  std::vector<glm::vec3> picture;
+  picture.reserve(a.pixels());
+  for (std::size_t k = 0; k < a.pixels(); ++k) {
+    switch (pair.part(k)) {
+      case Part::kNone:
+        picture.push_back(pair.covered(k) ? drawn : empty);
+        break;
+      case Part::kCoverage:
+        picture.push_back(vermilion);
+        break;
+      case Part::kId:
+        picture.push_back(blue);
+        break;
+      case Part::kDepth:
+        picture.push_back(yellow);
+        break;
+      case Part::kHits:
+      case Part::kColour:
+        picture.push_back(purple);
+        break;
+    }
+  }
+  return picture;
+}
+
+}  // namespace tessera
