@@ -12,7 +12,7 @@ namespace tessera {
 namespace {
 
 std::string rangeText(const GeneratorParameter& p) {
-  if (!p.choices.empty()) return fmt::format("{}", fmt::join(p.choices, "|"));
+  if (!p.choices.empty()) return fmt::format("{}", fmt::join(p.choices, " or "));
   return fmt::format("{}{} to {}", p.whole ? "" : "real ", p.least, p.most);
 }
 

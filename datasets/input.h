@@ -18,8 +18,8 @@ Scene loadInput(const std::string& input, std::uint32_t width = 0, std::uint32_t
 
 /// Positions, triangles in the file's order (polygons fanned from their first corner), normals if the file has them,
 /// else computed (area-weighted vertex normals). Every face is kept: OpenMesh's half-edge mesh is not used for reading.
-/// An index out of range becomes kBadIndex, which stays out of range when meshes are joined. Coordinates of binary files
-/// may be infinite or NaN.
+/// An index out of range becomes kBadIndex, which stays out of range when meshes are joined. Coordinates of binary
+/// files may be infinite or NaN.
 inline constexpr std::uint32_t kBadIndex = 0xffffffffu;
 struct Mesh {
   std::vector<glm::vec3> positions;

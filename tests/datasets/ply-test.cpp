@@ -1,0 +1,97 @@
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "fixture.h"
+
+using namespace tessera;
+
+namespace {
+
+std::string header(const std::string& format, const std::string& vertices, const std::string& faces,
+                   const std::string& more = "") {
+  return "ply\nformat " + format + " 1.0\ncomment made here\nelement vertex " + vertices +
+         "\nproperty float x\nproperty float y\nproperty float z\n" + more + "element face " + faces +
+         "\nproperty list uchar int vertex_indices\nend_header\n";
+}
+
+template <class T>
+void put(std::string& out, T value, bool big = false) {
+  char bytes[sizeof value];
+  std::memcpy(bytes, &value, sizeof value);
+  if (big) std::reverse(bytes, bytes + sizeof value);
+  out.append(bytes, sizeof value);
+}
+
+std::string binary(bool big, float strange = 0) {
+  std::string text = header(big ? "binary_big_endian" : "binary_little_endian", "4", "3");
+  for (const float c : {0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 1.f, 1.f, strange, 0.f, 1.f, 0.f}) put(text, c, big);
+  for (const auto& face : std::vector<std::vector<int>>{{0, 1, 2, 3}, {0, 0, 1}, {0, 1, 9}}) {
+    put(text, static_cast<unsigned char>(face.size()));
+    for (const int v : face) put(text, v, big);
+  }
+  return text;
+}
+
+const std::vector<Triangle> kExpected{{0, 1, 2}, {0, 2, 3}, {0, 0, 1}, {0, 1, kBadIndex}};
+
+}  // namespace
+
+TEST_CASE("PLY: text and both byte orders give the same mesh") {
+  const Files files;
+  const std::string text = header("ascii", "4", "3") + "0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n3 0 0 1\n3 0 1 9";
+  const Mesh mesh = readMesh(files.write("a.ply", text));
+  CHECK(mesh.triangles == kExpected);
+  for (const bool big : {false, true}) {
+    const Mesh other = readMesh(files.write("b.ply", binary(big)));
+    CHECK(other.triangles == kExpected);
+    CHECK(other.positions == mesh.positions);
+  }
+}
+
+TEST_CASE("PLY: coordinates of binary files may be infinite or NaN") {
+  const Files files;
+  const Mesh mesh = readMesh(files.write("a.ply", binary(false, std::numeric_limits<float>::quiet_NaN())));
+  CHECK(std::isnan(mesh.positions[2].z));
+  CHECK(mesh.triangles == kExpected);
+  for (const glm::vec3& n : mesh.normals) CHECK(std::isfinite(n.x + n.y + n.z));
+  for (const float m : loadInput(files.path("a.ply")).clipFromObject) CHECK(std::isfinite(m));
+}
+
+TEST_CASE("PLY: normals and further scalars are taken, later elements left alone") {
+  const Files files;
+  const std::string more = "property float nx\nproperty float ny\nproperty float nz\nproperty uchar quality\n";
+  std::string text = header("ascii", "3", "1", more);
+  text.insert(text.find("end_header"), "element edge 1\nproperty list uchar int ends\n");
+  const Mesh mesh =
+      readMesh(files.write("a.ply", text + "0 0 0 2 0 0 7\n1 0 0 0 2 0 7\n0 1 0 0 0 0 7\n3 0 1 2\n2 0 1\n"));
+  REQUIRE(mesh.normals.size() == 3);
+  CHECK(mesh.normals[0] == glm::vec3(1, 0, 0));
+  CHECK(mesh.normals[1] == glm::vec3(0, 1, 0));
+  CHECK(mesh.normals[2] == glm::vec3(0, 0, 1));
+}
+
+TEST_CASE("PLY: broken files are refused where they are broken") {
+  const Files files;
+  const std::string good = header("ascii", "3", "1") + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+  CHECK(readMesh(files.write("good.ply", good)).triangles.size() == 1);
+  CHECK(readError(files, "a.ply", "") == "a.ply: is empty");
+  CHECK(readError(files, "a.ply", "plx\n").starts_with("a.ply:1: 'ply' would be right"));
+  CHECK(readError(files, "a.ply", good.substr(0, good.find("end_header"))).find("the file ends before end_header") !=
+        std::string::npos);
+  CHECK(readError(files, "a.ply", good.substr(0, good.size() - 4)) == "a.ply:15: the file ends early");
+  CHECK(readError(files, "a.ply", header("ascii", "3", "1") + "0 0 0\nnan 0 0\n0 1 0\n3 0 1 2\n") ==
+        "a.ply:12: a number would be right");
+  CHECK(
+      readError(files, "a.ply", header("ascii", "3", "9000") + "0 0 0\n").starts_with("a.ply:8: count of the element"));
+  CHECK(readError(files, "a.ply", good + "3 0 1 2\n").find("left after the last face") != std::string::npos);
+  const std::string whole = binary(false);
+  CHECK(readError(files, "a.ply", whole.substr(0, whole.size() - 3)).find("the file ends early") != std::string::npos);
+  CHECK(readError(files, "a.ply", whole + "x").find("1 bytes are left") != std::string::npos);
+  std::string list = good;
+  list.insert(list.find("end_header"), "property list uchar float texcoord\n");
+  CHECK(readError(files, "a.ply", list).starts_with("a.ply:10: list 'texcoord' of element 'face'"));
+  std::string type = good;
+  type.replace(type.find("list uchar"), 10, "list char");
+  CHECK(readError(files, "a.ply", type).starts_with("a.ply: cannot be read"));
+}
