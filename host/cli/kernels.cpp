@@ -8,7 +8,7 @@
 #include "datasets/input.h"
 #include "host/cli/commands.h"
 #include "host/cli/common.h"
-#include "host/cli/compile.h"
+#include "host/cli/measure.h"
 #include "host/kernel-cache.h"
 #include "host/plan.h"
 

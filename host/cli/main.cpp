@@ -35,7 +35,8 @@ ExitCode runCommand(int argc, char** argv) {
       "this variant; 5 compare or parity found a difference; 1 anything else.");
   const std::array commands{cli::addRender(app),  cli::addParity(app),   cli::addCompare(app), cli::addPlan(app),
                             cli::addDevices(app), cli::addVariants(app), cli::addKernels(app)};
-  if (argc > 1 && argv[1][0] != '-' && !app.get_subcommand_no_throw(argv[1]))
+  const auto isNamed = [&](const cli::Command& command) { return command.app->get_name() == argv[1]; };
+  if (argc > 1 && argv[1][0] != '-' && std::ranges::none_of(commands, isNamed))
     return complain(ExitCode::kUsage, fmt::format("{}: no such command; 'tessera --help' lists them", argv[1]));
   try {
     app.parse(argc, argv);

@@ -6,7 +6,7 @@
 
 #include "host/cli/commands.h"
 #include "host/cli/common.h"
-#include "host/cli/compile.h"
+#include "host/cli/measure.h"
 #include "host/cli/progress.h"
 #include "host/cli/table.h"
 #include "host/image.h"
@@ -50,31 +50,21 @@ std::string summary(const RenderOptions& options, const Run& run, std::uint64_t 
 /// Renders into `run`; what it holds when this throws is still worth a row.
 Framebuffer renderFrames(const RenderOptions& options, Device& device, KernelCache& kernels, Run& run) {
   const Scene& scene = *run.scene;
-  const Variant variant = run.variant;
+  const Variant asked = run.variant;
   const bool countWork = !options.json.empty();
-  std::vector<Plan> plans{makePlan(scene, variant, run.device)};
-  if (countWork) plans.push_back(makePlan(scene, counting(variant), run.device));
+  std::vector<Plan> plans{makePlan(scene, asked, run.device)};
+  if (countWork) plans.push_back(makePlan(scene, counting(asked), run.device));
   compileKernels(kernels, plans);
 
   Rasterizer rasterizer(device, kernels);
   Progress progress("render", options.repeat + 1);
-  Frame first = rasterizer.render(scene, variant);
-  run.variant = first.plan.resolved;
-  run.plan = first.plan.entries;
-  run.counters = first.counters;
-  run.kernels = kernelHashes(kernels, first.plan);
-  // A repeated run leaves its first frame out of the times: it grows buffers and warms caches.
-  if (options.repeat == 0) run.samples.push_back(first.times);
-  for (unsigned i = 0; i < options.repeat; ++i) {
-    progress.at(i + 1);
-    run.samples.push_back(rasterizer.render(scene, variant, {.readBack = false}).times);
-  }
+  Frame frame = measure(run, rasterizer, kernels, options.repeat, [&](unsigned done) { progress.at(done); });
   run.peakBufferBytes = device.peakBufferBytes();
   if (countWork) {
-    const Counters work = rasterizer.render(scene, variant, {.readBack = false, .countWork = true}).counters;
+    const Counters work = rasterizer.render(scene, asked, {.readBack = false, .countWork = true}).counters;
     for (const char* const name : {"tests", "covered", "atomics"}) run.counters[name] = work.at(name);
   }
-  return std::move(first.image);
+  return std::move(frame.image);
 }
 
 ExitCode render(const RenderOptions& options) {
@@ -82,15 +72,11 @@ ExitCode render(const RenderOptions& options) {
     failUsage("render: nothing to write; -o FILE.png, -o FILE.exr or --json FILE is needed");
   for (const auto& output : options.outputs) checkImagePath(output);
   if (!options.json.empty()) checkOutputPath(options.json, options.input);
-  Run run;
-  run.variant = variantOf(options);
+  const Variant variant = variantOf(options);
   const auto device = openDevice(options);
-  run.device = device->info();
   const Scene scene = sceneOf(options);
-  run.scene = &scene;
   KernelCache kernels;
-  run.slang = kernels.slangc().version;
-  run.kernelCompiler = kernels.cxx();
+  Run run = beginRun(scene, variant, *device, kernels);
   const auto writeRow = [&] {
     if (!options.json.empty()) writeText(options.json, rowText(run) + '\n');
   };
@@ -124,11 +110,7 @@ Command addRender(CLI::App& app) {
   addDevice(*command, *options, false);
   addSettings(*command, *options);
   addThreads(*command, *options);
-  command
-      ->add_option("--repeat", options->repeat,
-                   "time N frames after one that warms up; without it the one frame is timed")
-      ->type_name("N")
-      ->check(CLI::Range(1, 1000000));
+  addRepeat(*command, options->repeat);
   command->add_option("--json", options->json, "write the result row (one line of JSON) to FILE, or - for stdout")
       ->type_name("FILE");
   command->footer(
