@@ -17,7 +17,7 @@ namespace {
 constexpr std::uint64_t kCornerBytes = 16, kPieceBytes = 40, kItemBytes = 8;   // slang/layout.slang: Corner, Piece, Item
 constexpr std::uint32_t kBlock = 64;                        // pixels; bands begin on a row of blocks, and so of cells and tiles
 constexpr std::uint32_t kScanBlock = 1024;                  // slang/rasterizer/scan.slang: kBlock
-constexpr std::uint32_t kPiecesOfTriangle = 7;              // a triangle cut by six planes has nine corners
+constexpr std::uint32_t kClippedPieces = 26;                // slang/rasterizer/clip.slang: kMaxCorners - 2
 
 std::uint64_t ceilDivide(std::uint64_t a, std::uint64_t b) { return (a + b - 1) / b; }
 
@@ -112,7 +112,7 @@ class FrameRun {
     const std::uint64_t pixelBytes = value("shade") != "none" ? 12 : commit_ == "depth32+id32" ? 8 : 4;
     const std::uint64_t blocksAcross = ceilDivide(scene_.width, kBlock);
     const std::uint64_t byBytes = info_.maxBufferBytes / (pixelBytes * scene_.width * kBlock);
-    const std::uint64_t byLoops = info_.maxLoopIterations / (2 * kPiecesOfTriangle * blocksAcross);
+    const std::uint64_t byLoops = info_.maxLoopIterations / (2 * (frame_.plan.clip ? kClippedPieces : 1) * blocksAcross);
     const std::uint64_t rows = std::min<std::uint64_t>(std::max<std::uint64_t>(std::min(byBytes, byLoops), 1) * kBlock, scene_.height);
     std::vector<Band> bands;
     for (std::uint64_t begin = 0; begin < scene_.height; begin += rows)
