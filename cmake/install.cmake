@@ -5,7 +5,7 @@ set(packageFolder ${CMAKE_INSTALL_LIBDIR}/cmake/tessera)
 set(slangFolder ${CMAKE_INSTALL_DATADIR}/tessera/slang)
 
 target_sources(tessera PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} FILES
-  host/cpu/cpu-device.h host/device.h host/error.h host/framebuffer.h host/image.h host/kernel-cache.h host/kernel.h host/plan.h
+  host/counters.h host/cpu/cpu-device.h host/device.h host/error.h host/framebuffer.h host/image.h host/kernel-cache.h host/kernel.h host/plan.h
   host/probe.h host/rasterizer.h host/reference.h host/scene.h host/variant.h host/vulkan/vulkan-device.h datasets/input.h)
 
 install(TARGETS tessera EXPORT tessera FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tessera)
