@@ -1,0 +1,23 @@
+// Frames against the oracle, told in one line.
+#pragma once
+
+#include <string>
+
+#include "host/framebuffer.h"
+#include "host/rasterizer.h"
+#include "host/reference.h"
+
+namespace tessera {
+
+/// "" where every bit that both hold is equal; else how many pixels differ, and what the first one holds.
+std::string difference(const Framebuffer& got, const Framebuffer& expected);
+/// "" where each counter that the oracle has, too, is equal.
+std::string difference(const Counters& got, const reference::Counts& expected);
+/// Image and counters.
+std::string difference(const Frame& got, const reference::Result& expected);
+/// Of stage outputs: "" or the first stage, element and word that differ.
+std::string difference(const std::vector<StageOutput>& got, const std::vector<StageOutput>& expected);
+/// The oracle's image for the axes that define one.
+reference::Image imageOf(const Variant& variant);
+
+}  // namespace tessera

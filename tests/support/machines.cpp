@@ -1,0 +1,49 @@
+#include "machines.h"
+
+#include <cstdlib>
+#include <map>
+
+#include "host/cpu/cpu-device.h"
+#include "host/vulkan/vulkan-device.h"
+
+namespace tessera {
+
+Machine::Machine(std::string name, std::string route, std::unique_ptr<Device> device, KernelCache::Options options)
+    : name_(std::move(name)), route_(std::move(route)), device_(std::move(device)), kernels_(std::move(options)), rasterizer_(*device_, kernels_) {}
+
+Variant Machine::routed(Variant variant) const {
+  if (!variant.has("route")) variant.set("route", route_);
+  return variant;
+}
+
+Frame Machine::render(const Scene& scene, Variant variant, const FrameOptions& options) {
+  return rasterizer_.render(scene, routed(std::move(variant)), options);
+}
+
+Plan Machine::plan(const Scene& scene, Variant variant) const { return makePlan(scene, routed(std::move(variant)), info()); }
+
+Machine* machineAt(const std::string& place, const std::string& route) {
+  static std::map<std::string, Machine> machines;
+  if (const auto found = machines.find(place); found != machines.end()) return &found->second;
+  std::unique_ptr<Device> device;
+  if (route == "cpp") {
+    device = makeCpuDevice();
+  } else {
+    const char* without = std::getenv("TESSERA_NO_VULKAN");
+    if (without != nullptr && std::string(without) == "1") {
+      WARN("left out: TESSERA_NO_VULKAN=1");
+      return nullptr;
+    }
+    VulkanOptions options;
+#ifdef TESSERA_VALIDATION
+    options.validation = true;
+    options.onMessage = [](const std::string& message) { FAIL_CHECK(message); };
+#endif
+    device = makeVulkanDevice(options);   // throws, and so fails the test, where there is none
+  }
+  KernelCache::Options options;
+  options.boundsChecks = place == CheckedCpu::kName;
+  return &machines.try_emplace(place, place, route, std::move(device), options).first->second;
+}
+
+}  // namespace tessera

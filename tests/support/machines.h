@@ -1,0 +1,74 @@
+// The machines that a test runs on: a test is written once as PLACE_TEST_CASE and registered for each.
+#pragma once
+
+#include <catch2/catch.hpp>
+#include <memory>
+#include <string>
+
+#include "host/device.h"
+#include "host/kernel-cache.h"
+#include "host/rasterizer.h"
+
+namespace tessera {
+
+struct Cpu {
+  static constexpr const char* kName = "cpu";
+  static constexpr const char* kRoute = "cpp";
+};
+struct VulkanSpirv {
+  static constexpr const char* kName = "vulkan by spirv";
+  static constexpr const char* kRoute = "spirv";
+};
+struct VulkanGlsl {
+  static constexpr const char* kName = "vulkan by glsl";
+  static constexpr const char* kRoute = "glsl";
+};
+/// The CPU with Slang's bounds checks compiled into the kernels: an access out of bounds throws.
+struct CheckedCpu {
+  static constexpr const char* kName = "cpu with bounds checks";
+  static constexpr const char* kRoute = "cpp";
+};
+
+class Machine {
+ public:
+  Machine(std::string name, std::string route, std::unique_ptr<Device> device, KernelCache::Options options = {});
+
+  const std::string& name() const { return name_; }
+  const DeviceInfo& info() const { return device_->info(); }
+  KernelCache& kernels() { return kernels_; }
+  /// Renders with this machine's route, unless the variant says another.
+  Frame render(const Scene& scene, Variant variant = {}, const FrameOptions& options = {});
+  Plan plan(const Scene& scene, Variant variant = {}) const;
+
+ private:
+  Variant routed(Variant variant) const;
+
+  std::string name_, route_;
+  std::unique_ptr<Device> device_;
+  KernelCache kernels_;
+  Rasterizer rasterizer_;   // after what it uses
+};
+
+/// One machine of each place for the whole program, so that kernels are loaded once. A test fails where there is no Vulkan
+/// device. With TESSERA_NO_VULKAN=1 in the environment it warns instead, and null comes back.
+Machine* machineAt(const std::string& place, const std::string& route);
+template <typename Place> Machine* machineAt() { return machineAt(Place::kName, Place::kRoute); }
+
+}  // namespace tessera
+
+/// `body` is run with `Machine& machine`.
+#define PLACE_TEST_CASE_IMPLEMENTATION(run, title, tags, ...)                             \
+  static void run(tessera::Machine& machine);                                              \
+  TEMPLATE_TEST_CASE(title, tags, __VA_ARGS__) {                                            \
+    if (tessera::Machine* machine = tessera::machineAt<TestType>()) {                      \
+      INFO("on " << machine->name());                                                      \
+      run(*machine);                                                                       \
+    }                                                                                      \
+  }                                                                                        \
+  static void run(tessera::Machine& machine)
+#define PLACE_TEST_CASE(title, tags) \
+  PLACE_TEST_CASE_IMPLEMENTATION(INTERNAL_CATCH_UNIQUE_NAME(runAt), title, tags, tessera::Cpu, tessera::VulkanSpirv, tessera::VulkanGlsl)
+/// The same, and once more with bounds checks in the CPU's kernels.
+#define CHECKED_PLACE_TEST_CASE(title, tags)                                                                                            \
+  PLACE_TEST_CASE_IMPLEMENTATION(INTERNAL_CATCH_UNIQUE_NAME(runAt), title, tags, tessera::Cpu, tessera::CheckedCpu, tessera::VulkanSpirv, \
+                                 tessera::VulkanGlsl)

@@ -1,0 +1,25 @@
+// Variants to test, made from axes(): an axis or value that is added there is tested from then on.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "host/plan.h"
+#include "host/variant.h"
+
+namespace tessera {
+
+/// Names of the values of an axis that may change no bit. Of an axis of integers, a few from its least one on; "" is the plan's choice.
+std::vector<std::string> losslessValues(const Axis& axis);
+/// Axes with two or more lossless values that a test can set on any scene: all but those that only the planner knows to set
+/// (clip, projection) and those that choose what comes back, not how it is made (counters).
+std::vector<std::string> implementationAxes();
+/// Every combination of lossless values of these axes that the planner accepts on this device, an axis that a combination does not read
+/// (tile without bins, capacity without queues) being left unset.
+std::vector<Variant> combinations(const std::vector<std::string>& axes, const DeviceInfo& device);
+/// The paths of a sample to the frame: combinations of the axes that raster's kernels and the bins depend on.
+std::vector<Variant> rasterPaths(const DeviceInfo& device);
+/// The settings of `more` on top of those of `variant`.
+Variant joined(Variant variant, const Variant& more);
+
+}  // namespace tessera
