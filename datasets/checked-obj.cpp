@@ -31,7 +31,7 @@ Corner parseCorner(const Lines& lines, std::string_view word) {
 }
 
 std::size_t countVertices(const std::string& name, std::string_view text) {
-  Lines lines(name, text);
+  Lines lines(name, text, Lines::Comments::kHash);
   lines.joinContinued();
   std::size_t count = 0;
   while (lines.next()) count += lines.words()[0] == "v";
@@ -45,7 +45,7 @@ Checked checkObj(const std::string& name, std::string_view text) {
   checked.text.reserve(text.size());
   auto out = std::back_inserter(checked.text);
   const auto total = static_cast<std::int64_t>(countVertices(name, text));  // a face may come before its vertices
-  Lines lines(name, text);
+  Lines lines(name, text, Lines::Comments::kHash);
   lines.joinContinued();
   std::vector<Corner> corners;
   std::vector<std::uint32_t> indices, sorted;

@@ -18,7 +18,7 @@ void copyWords(std::string& text, const Lines& lines, std::size_t count) {
 Checked checkOff(const std::string& name, std::string_view text) {
   Checked checked;
   checked.text.reserve(text.size());
-  Lines lines(name, text);
+  Lines lines(name, text, Lines::Comments::kHash);
   lines.need("the word OFF");
   const std::string header(lines.words()[0]);
   // Prefixes: ST texture coordinates, C colours, N normals, all of which follow x y z on a vertex's line. 4 and n

@@ -1,43 +1,84 @@
-// PLY (Turk 1994): the header alone is checked; the data goes to OpenMesh as it is.
+// PLY (Turk 1994): the header is checked, strictly, since OpenMesh trusts it; the data goes to OpenMesh as it is.
 #include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <utility>
 
 #include "datasets/checked.h"
 #include "datasets/text.h"
 
 namespace tessera {
+namespace {
+
+using Words = std::vector<std::string_view>;
+
+void checkFormat(const Lines& lines) {
+  const Words& words = lines.words();
+  const bool known = words.size() == 3 &&
+                     (words[1] == "ascii" || words[1] == "binary_little_endian" || words[1] == "binary_big_endian");
+  if (words[0] != "format" || !known || words[2] != "1.0")
+    lines.fail("format ascii, binary_little_endian or binary_big_endian, and 1.0, would be right");
+}
+
+void checkType(const Lines& lines, std::string_view type) {
+  constexpr std::array<std::string_view, 16> kTypes{"char",  "uchar",  "short",   "ushort", "int",   "uint",
+                                                    "float", "double", "int8",    "uint8",  "int16", "uint16",
+                                                    "int32", "uint32", "float32", "float64"};
+  if (std::ranges::find(kTypes, type) == kTypes.end()) lines.fail(fmt::format("'{}' is not a type of PLY", type));
+}
+
+}  // namespace
 
 Checked checkPly(const std::string& name, std::string_view text) {
   Checked checked;
   checked.text = text;
   // OpenMesh takes the end of the text right after the last number for a number cut off.
   checked.text += '\n';
-  Lines lines(name, text);
+  Lines lines(name, text, Lines::Comments::kNone);
   lines.need("the word ply");
-  if (lines.words()[0] != "ply") lines.fail("'ply' would be right as the first line");
+  if (lines.words() != Words{"ply"}) lines.fail("'ply' would be right as the first line");
+  lines.need("the format");
+  while (lines.words()[0] == "comment" || lines.words()[0] == "obj_info") lines.need("the format");
+  checkFormat(lines);
   std::string element;
-  bool ended = false, corners = false;
-  while (!ended) {
-    lines.need("end_header");
-    const auto& words = lines.words();
-    if (words[0] == "element") {
+  bool hasCorners = false;
+  std::set<std::string, std::less<>> elements, properties;  // of the file; of the element
+  while (lines.need("end_header"), lines.words() != Words{"end_header"}) {
+    const Words& words = lines.words();
+    if (words[0] == "comment" || words[0] == "obj_info") continue;
+    if (words[0] == "element" && words.size() == 3) {
       // OpenMesh stops after the faces: what follows them is nothing to it, or to us.
       if (element == "face") checked.wholeText = false;
-      element = lines.word(1, "name of the element");
+      element = words[1];
+      properties.clear();
+      if (!elements.insert(element).second) lines.fail(fmt::format("element '{}' is there twice", element));
       const auto count = lines.integer(2, "count of the element", 0, static_cast<std::int64_t>(text.size()));
       if (element == "vertex") checked.vertices = static_cast<std::size_t>(count);
       if (element == "face") checked.faces = static_cast<std::size_t>(count);
-    } else if (words[0] == "property" && lines.word(1, "type of the property") == "list" && checked.wholeText) {
-      const std::string_view list = lines.word(4, "property list TYPE TYPE NAME");
-      const bool isCorners = element == "face" && (list == "vertex_indices" || list == "vertex_index");
-      // OpenMesh reads other lists as if they were single values, and everything after them from the wrong place.
-      if (!isCorners)
-        lines.fail(
-            fmt::format("list '{}' of element '{}' cannot be read; a file without it would be right", list, element));
-      corners = true;
+      continue;
     }
-    ended = words[0] == "end_header";
+    const bool list = words.size() == 5 && words[1] == "list";
+    if (words[0] != "property" || element.empty() || (words.size() != 3 && !list))
+      lines.fail("element NAME COUNT, and then property TYPE NAME or property list TYPE TYPE NAME, would be right");
+    const std::string_view property = words.back();
+    if (!properties.insert(std::string(property)).second)
+      lines.fail(fmt::format("property '{}' is there twice", property));
+    for (std::size_t i = list ? 2 : 1; i + 1 < words.size(); ++i) checkType(lines, words[i]);
+    const bool corners = property == "vertex_indices" || property == "vertex_index";
+    // OpenMesh reads other lists as if they were single values, and everything after them from the wrong place.
+    if (list && checked.wholeText && !(element == "face" && corners))
+      lines.fail(
+          fmt::format("list '{}' of element '{}' cannot be read; a file without it would be right", property, element));
+    if (!list && element == "face" && corners) lines.fail(fmt::format("'{}' is not a list", property));
+    constexpr std::string_view kReals = " x y z nx ny nz ";
+    if (element == "vertex" && kReals.find(fmt::format(" {} ", property)) != kReals.npos && words[1][0] != 'f' &&
+        words[1][0] != 'd')
+      lines.fail(fmt::format("'{}' of a vertex is {}; float or double would be right", property, words[1]));
+    if (element == "face" && corners && std::exchange(hasCorners, true)) lines.fail("two lists of corners");
   }
-  if (checked.faces > 0 && !corners) lines.fail("element 'face' has no list 'vertex_indices'");
+  if (checked.faces > 0 && !hasCorners) lines.fail("element 'face' has no list 'vertex_indices'");
   return checked;
 }
 

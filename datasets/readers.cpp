@@ -18,11 +18,14 @@
 namespace tessera {
 namespace {
 
-/// Takes what OpenMesh writes to std::cerr, so that a failure is one line of ours.
+/// Takes what OpenMesh writes to std::cerr and std::clog, so that a failure is one line of ours.
 class CapturedErrors {
  public:
-  CapturedErrors() : before_(std::cerr.rdbuf(text_.rdbuf())) {}
-  ~CapturedErrors() { std::cerr.rdbuf(before_); }
+  CapturedErrors() : cerr_(std::cerr.rdbuf(text_.rdbuf())), clog_(std::clog.rdbuf(text_.rdbuf())) {}
+  ~CapturedErrors() {
+    std::cerr.rdbuf(cerr_);
+    std::clog.rdbuf(clog_);
+  }
   std::string line() const {
     std::string all = text_.str();
     while (!all.empty() && std::isspace(static_cast<unsigned char>(all.back()))) all.pop_back();
@@ -32,7 +35,7 @@ class CapturedErrors {
 
  private:
   std::ostringstream text_;
-  std::streambuf* before_;
+  std::streambuf *cerr_, *clog_;
 };
 
 std::string placeOf(std::string_view text, std::istream& in, bool binary, const PlainImporter& importer) {

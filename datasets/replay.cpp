@@ -51,7 +51,7 @@ void expect(Lines& lines, std::string_view word, std::size_t count) {
 void writeReplay(const std::filesystem::path& path, const Scene& scene) {
   std::string name = scene.name;
   std::ranges::replace_if(
-      name, [](char c) { return c == '\n' || c == '\r' || c == '#'; }, ' ');
+      name, [](char c) { return c == '\n' || c == '\r'; }, ' ');
   fmt::memory_buffer text;
   auto out = std::back_inserter(text);
   fmt::format_to(out, "{} 1\nname {}\nsize {} {}\nvertices {}\n", kFirst, name, scene.width, scene.height,
@@ -70,7 +70,7 @@ void writeReplay(const std::filesystem::path& path, const Scene& scene) {
 Scene readReplay(const std::filesystem::path& path) {
   const std::string text = readFile(path);
   const auto most = static_cast<std::int64_t>(text.size());  // a line each, so no count is beyond it
-  Lines lines(path.string(), text);
+  Lines lines(path.string(), text, Lines::Comments::kNone);
   expect(lines, kFirst, 1);
   if (lines.words()[1] != "1") lines.fail(fmt::format("version '{}'; 1 would be right", lines.words()[1]));
   Scene scene;

@@ -52,7 +52,7 @@ Mesh readBinary(std::string_view text, std::uint32_t count) {
 
 Mesh readText(const std::string& name, std::string_view text) {
   Facets facets;
-  Lines lines(name, text);
+  Lines lines(name, text, Lines::Comments::kNone);
   std::vector<std::uint32_t> corners;
   std::string word;
   while (lines.next()) {

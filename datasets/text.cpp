@@ -49,7 +49,7 @@ bool Lines::takeLine() {
     line = text_.substr(at_, end - at_);
     at_ = end + 1;
     ++number_;
-    line = line.substr(0, line.find('#'));
+    if (comments_ == Comments::kHash) line = line.substr(0, line.find('#'));
     while (!line.empty() && line.back() == '\r') line.remove_suffix(1);
     more = continued_ && !line.empty() && line.back() == '\\';
     if (more) line.remove_suffix(1);

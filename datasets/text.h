@@ -15,8 +15,10 @@ std::string readFile(const std::filesystem::path& path);
 
 class Lines {
  public:
-  Lines(std::string name, std::string_view text) : name_(std::move(name)), text_(text) {}
-  /// Moves to the next line that has words once its comment (from '#' on) is cut off; false at the end.
+  enum class Comments { kNone, kHash };  ///< kHash: what follows a '#' on a line is left out
+  Lines(std::string name, std::string_view text, Comments comments)
+      : name_(std::move(name)), text_(text), comments_(comments) {}
+  /// Moves to the next line that has words; false at the end.
   bool next();
   /// The same, or a message that the file ends before `what`.
   void need(std::string_view what);
@@ -35,6 +37,7 @@ class Lines {
 
   std::string name_;
   std::string_view text_;
+  Comments comments_;
   std::size_t at_ = 0, number_ = 0;
   bool continued_ = false;
   std::string joined_;

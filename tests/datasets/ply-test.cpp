@@ -91,6 +91,19 @@ TEST_CASE("PLY: broken files are refused where they are broken") {
   std::string list = good;
   list.insert(list.find("end_header"), "property list uchar float texcoord\n");
   CHECK(readError(files, "a.ply", list).starts_with("a.ply:10: list 'texcoord' of element 'face'"));
+  const auto changed = [&](std::string_view from, std::string_view to) {
+    std::string text = good;
+    return readError(files, "a.ply", text.replace(text.find(from), from.size(), to));
+  };
+  CHECK(changed("ascii", "asci").starts_with("a.ply:2: format ascii, "));
+  CHECK(changed("element vertex 3\n", "").starts_with("a.ply:4: element NAME COUNT, and then"));
+  CHECK(changed("property float x", "property flout x") == "a.ply:5: 'flout' is not a type of PLY");
+  CHECK(changed("property float x", "property int x") ==
+        "a.ply:5: 'x' of a vertex is int; float or double would be right");
+  CHECK(changed("property float y", "property float x") == "a.ply:6: property 'x' is there twice");
+  CHECK(changed("element face 1", "element vertex 1") == "a.ply:8: element 'vertex' is there twice");
+  CHECK(changed("property list uchar int", "property int").find("'vertex_indices' is not a list") != std::string::npos);
+  CHECK(changed("vertex_indices", "indices").starts_with("a.ply:9: list 'indices' of element 'face'"));
   std::string type = good;
   type.replace(type.find("list uchar"), 10, "list char");
   CHECK(readError(files, "a.ply", type).starts_with("a.ply: cannot be read"));
