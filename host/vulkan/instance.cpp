@@ -95,8 +95,8 @@ std::string lower(std::string text) {
 }  // namespace
 
 std::string Adapter::driverText() const {
-  const std::string text = fmt::format("{} {}", driver.driverName.data(), driver.driverInfo.data());
-  return text == " " ? fmt::format("driver {:#x}", properties.driverVersion) : text;
+  const std::string name = driver.driverName.data(), version = driver.driverInfo.data();
+  return name + (version.empty() ? fmt::format(" {:#x}", properties.driverVersion) : " " + version);
 }
 
 std::string Adapter::apiVersionText() const {
