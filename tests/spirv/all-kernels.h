@@ -1,0 +1,30 @@
+// Which kernels there are: found by asking the plan, so that a new axis or value is in every test below.
+#pragma once
+
+#include <vector>
+
+#include "host/stages.h"
+
+namespace tessera::test {
+
+/// A triangle that needs no clipping and no perspective division, so that no value of an axis is refused on its account;
+/// in object space with normals, or in clip space.
+Scene simpleScene(bool objectSpace);
+
+/// Each distinct kernel of a stage that some plan dispatches on this route.
+std::vector<KernelRequest> kernelsOf(const Stage& stage, Route route);
+/// Some of them, such that each value of each axis that the stage reads is among them.
+std::vector<KernelRequest> covering(const std::vector<KernelRequest>& kernels);
+/// Of all stages.
+std::vector<KernelRequest> coveringKernels(Route route);
+std::vector<KernelRequest> allKernels(Route route);
+
+/// The "axis=value" words of a kernel's variant.
+std::vector<std::string> settingsOf(const KernelRequest& kernel);
+
+/// What spirv-val says about words written to a file, empty if it is content; Vulkan 1.2.
+std::string spirvVal(const std::vector<std::uint32_t>& words);
+/// Compiles them and collects what checkSpirv() and spirv-val find, a line each: none is good.
+std::vector<std::string> findings(KernelCache& cache, const std::vector<KernelRequest>& kernels);
+
+}  // namespace tessera::test

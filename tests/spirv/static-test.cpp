@@ -1,0 +1,120 @@
+// Every stage under every value of every axis that it reads compiles on each route, and its SPIR-V keeps the contract.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "all-kernels.h"
+#include "host/spirv.h"
+
+using namespace tessera;
+using namespace tessera::test;
+
+namespace {
+
+constexpr std::uint32_t kOpFAdd = 129, kOpFMul = 133, kOpDecorate = 71, kNoContraction = 42;
+
+/// The place of the first instruction of this kind whose word `operand` is `value`.
+std::size_t findInstruction(const std::vector<std::uint32_t>& words, std::uint32_t op, std::size_t operand = 0,
+                            std::uint32_t value = 0) {
+  for (std::size_t at = 5; at < words.size(); at += words[at] >> 16)
+    if ((words[at] & 0xffff) == op && (operand == 0 || words[at + operand] == value)) return at;
+  return words.size();
+}
+
+std::string bytesOf(const CompiledKernel& kernel) {
+  std::ifstream file(kernel.binary, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// The kernel of `project`, which divides, multiplies and adds.
+CompiledKernel projectKernel(Route route) {
+  const Stage& stage = *std::ranges::find(stages(), "project", &Stage::name);
+  return KernelCache().get(kernelsOf(stage, route).at(0));
+}
+
+}  // namespace
+
+TEST_CASE("every value of an axis that a stage reads is in a kernel of it") {
+  for (const Route route : {Route::kCpp, Route::kSpirv, Route::kGlsl}) {
+    for (const Stage& stage : stages()) {
+      const std::vector<KernelRequest> all = kernelsOf(stage, route), some = covering(all);
+      INFO(stage.name);
+      REQUIRE(!some.empty());
+      CHECK(some.size() <= all.size());
+      std::set<std::string> seen;
+      for (const KernelRequest& kernel : some) {
+        CHECK(kernel.route == route);
+        for (const std::string& setting : settingsOf(kernel)) seen.insert(setting);
+      }
+      for (const Axis& axis : axes()) {
+        if (!std::ranges::count(axis.stages, stage.name)) continue;
+        for (const AxisValue& value : axis.values) {
+          const std::string setting = axis.name + "=" + value.name;
+          const bool without = setting == "shade=none" || (stage.name == "raster-items" && setting == "commit=tile-owned");
+          INFO(setting);
+          CHECK(seen.contains(setting) == !without);
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("kernels compile to C++") {
+  KernelCache cache;
+  const std::vector<KernelRequest> kernels = coveringKernels(Route::kCpp);
+  std::set<std::string> binaries;
+  for (const CompiledKernel& kernel : cache.getAll(kernels)) {
+    CHECK(std::filesystem::file_size(kernel.binary) > 0);
+    binaries.insert(kernel.hash);
+  }
+  CHECK(binaries.size() == kernels.size());
+}
+
+TEST_CASE("SPIR-V of Slang is exact and valid") {
+  KernelCache cache;
+  CHECK(findings(cache, coveringKernels(Route::kSpirv)) == std::vector<std::string>{});
+}
+
+TEST_CASE("SPIR-V by way of GLSL is exact and valid") {
+  KernelCache cache;
+  CHECK(findings(cache, coveringKernels(Route::kGlsl)) == std::vector<std::string>{});
+}
+
+TEST_CASE("a value of an axis makes another kernel than its neighbour") {
+  KernelCache cache;
+  for (const Stage& stage : stages()) {
+    std::map<std::string, std::string> seen;  // module -> variant
+    const std::vector<KernelRequest> kernels = covering(kernelsOf(stage, Route::kSpirv));
+    const std::vector<CompiledKernel> compiled = cache.getAll(kernels);
+    for (std::size_t i = 0; i < kernels.size(); ++i) {
+      const auto [other, isNew] = seen.emplace(bytesOf(compiled[i]), kernels[i].variantName);
+      INFO(stage.name << ": " << kernels[i].variantName << " and " << other->second);
+      CHECK(isNew);
+    }
+  }
+}
+
+TEST_CASE("a NoContraction that is missing is found on either route") {
+  for (const Route route : {Route::kSpirv, Route::kGlsl}) {
+    const CompiledKernel kernel = projectKernel(route);
+    std::vector<std::uint32_t> words = readSpirv(kernel.binary);
+    REQUIRE(checkSpirv(words).empty());
+    REQUIRE(findInstruction(words, kOpFAdd) < words.size());
+    REQUIRE(findInstruction(words, kOpFMul) < words.size());
+    const std::size_t decoration = findInstruction(words, kOpDecorate, 2, kNoContraction);
+    REQUIRE(decoration < words.size());
+    words.erase(words.begin() + static_cast<std::ptrdiff_t>(decoration), words.begin() + static_cast<std::ptrdiff_t>(decoration) + 3);
+    CHECK(checkSpirv(words).size() == 1);
+  }
+}
+
+TEST_CASE("spirv-val finds what is no module") {
+  std::vector<std::uint32_t> words = readSpirv(projectKernel(Route::kGlsl).binary);
+  REQUIRE(spirvVal(words) == "");
+  const std::size_t sum = findInstruction(words, kOpFAdd);
+  REQUIRE(sum < words.size());
+  words[sum + 3] = words[sum + 2];  // a sum of itself, before it is defined
+  CHECK_THAT(spirvVal(words), Catch::StartsWith("spirv-val: "));
+}

@@ -1,0 +1,89 @@
+// The validation layer has nothing to say about frames of every kind.
+#include <catch2/catch.hpp>
+
+#include "all-kernels.h"
+#include "datasets/input.h"
+#include "host/error.h"
+#include "host/rasterizer.h"
+#include "host/row.h"
+#include "host/vulkan/vulkan-device.h"
+
+using namespace tessera;
+using namespace tessera::test;
+
+namespace {
+
+/// Frames of one device; what the layer says about them.
+class Watched {
+ public:
+  Watched() {
+    VulkanOptions options;
+    options.validation = true;
+    options.onMessage = [this](const std::string& message) { messages.push_back(message); };
+    device_ = makeVulkanDevice(options);
+    rasterizer_ = std::make_unique<Rasterizer>(*device_, cache_);
+  }
+  ~Watched() {
+    rasterizer_.reset();
+    device_.reset();
+    CHECK(messages == std::vector<std::string>{});
+  }
+  Frame render(const Scene& scene, const Variant& variant) {
+    INFO(scene.name << " [" << variant.text() << "]");
+    Frame frame = rasterizer_->render(scene, variant);
+    CHECK((coveredPixels(frame.image) > 0) == !scene.triangles.empty());
+    CHECK(messages == std::vector<std::string>{});
+    return frame;
+  }
+
+  std::vector<std::string> messages;
+
+ private:
+  KernelCache cache_;
+  std::unique_ptr<Device> device_;
+  std::unique_ptr<Rasterizer> rasterizer_;
+};
+
+Scene sphere() { return loadInput("generate:icosphere?level=3", 301, 203); }
+
+}  // namespace
+
+TEST_CASE("validation is silent over each binning and commit") {
+  const Scene scene = sphere();
+  for (const char* route : {"spirv", "glsl"}) {
+    Watched watched;
+    int frames = 0;
+    for (const AxisValue& binning : axis("binning").values) {
+      for (const AxisValue& commit : axis("commit").values) {
+        if (binning.name == "none" && commit.name == "tile-owned") continue;
+        watched.render(scene, {{"route", route}, {"binning", binning.name}, {"commit", commit.name}});
+        ++frames;
+      }
+    }
+    CHECK(frames >= 11);
+  }
+}
+
+TEST_CASE("validation is silent over the other axes") {
+  const Scene scene = sphere();
+  Watched watched;
+  watched.render(scene, {});
+  for (const char* setting : {"plan=full", "tile=8", "tile=16", "tile=32", "shade=id", "shade=flat", "shade=smooth", "counters=work",
+                              "traversal=pixel", "edge=int64", "cull=back", "between-samples=off"}) {
+    Variant variant;
+    variant.set(setting);
+    watched.render(scene, variant);
+  }
+}
+
+TEST_CASE("validation is silent over retries and clipping and empty frames") {
+  Watched watched;
+  const Scene hot = loadInput("generate:hot?count=3000&block=16", 256, 256);
+  CHECK(watched.render(hot, {{"binning", "queue"}, {"capacity", "16"}}).counters.at("retries") > 0);
+  const Scene ring = loadInput(TESSERA_SOURCE_DIR "/datasets/scenes/inside-ring.toml", 301, 203);
+  CHECK(watched.render(ring, {}).counters.at("clipped") > 0);
+  CHECK(watched.render(ring, {{"commit", "two-pass"}}).counters.at("clipped") > 0);
+  Scene empty;
+  empty.width = empty.height = 17;
+  CHECK(coveredPixels(watched.render(empty, {}).image) == 0);
+}
