@@ -61,9 +61,10 @@ void addThreads(CLI::App& app, Options& options) {
 }
 
 void addRepeat(CLI::App& app, unsigned& repeat) {
-  app.add_option("--repeat", repeat, "time N frames after one that warms up; without it the one frame is timed")
+  app.add_option("--repeat", repeat, "time N frames, after one that warms up")
       ->type_name("N")
-      ->check(CLI::Range(1, 1000000));
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
 }
 
 void addDevice(CLI::App& app, Options& options, bool many) {

@@ -24,7 +24,6 @@ ExitCode runCommand(int argc, char** argv) {
   app.name("tessera");
   app.set_version_flag("--version",
                        fmt::format("tessera {} ({}, {})", TESSERA_VERSION, TESSERA_GIT, TESSERA_BUILD_TYPE));
-  app.require_subcommand(1);
   app.footer(
       "Examples:\n"
       "  tessera render bunny.obj -o bunny.png --set shade=smooth\n"
@@ -35,9 +34,6 @@ ExitCode runCommand(int argc, char** argv) {
       "this variant; 5 compare or parity found a difference; 1 anything else.");
   const std::array commands{cli::addRender(app),  cli::addParity(app),   cli::addCompare(app), cli::addPlan(app),
                             cli::addDevices(app), cli::addVariants(app), cli::addKernels(app)};
-  const auto isNamed = [&](const cli::Command& command) { return command.app->get_name() == argv[1]; };
-  if (argc > 1 && argv[1][0] != '-' && std::ranges::none_of(commands, isNamed))
-    return complain(ExitCode::kUsage, fmt::format("{}: no such command; 'tessera --help' lists them", argv[1]));
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -46,7 +42,7 @@ ExitCode runCommand(int argc, char** argv) {
   }
   for (const auto& command : commands)
     if (command.app->parsed()) return command.run();
-  return ExitCode::kDone;
+  return complain(ExitCode::kUsage, "a command is required; 'tessera --help' lists them");
 }
 
 }  // namespace

@@ -40,7 +40,6 @@ Frame measure(Run& run, Rasterizer& rasterizer, KernelCache& kernels, unsigned r
   run.counters = first.counters;
   for (const auto& stage : stagesOf(first.plan))
     run.kernels[stage] = kernels.get(kernelRequest(stage, first.plan)).hash;
-  if (repeat == 0) run.samples.push_back(first.times);
   for (unsigned i = 0; i < repeat; ++i) {
     if (progress) progress(i + 1);
     run.samples.push_back(rasterizer.render(*run.scene, asked, {.readBack = false}).times);

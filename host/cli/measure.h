@@ -16,8 +16,8 @@ void compileKernels(KernelCache& kernels, const std::vector<Plan>& plans);
 /// A run that has not rendered yet: scene, variant as it was asked for, device and tools.
 Run beginRun(const Scene& scene, const Variant& variant, const Device& device, const KernelCache& kernels);
 
-/// Renders run.scene under run.variant and fills `run`. `repeat` 0: the one frame is timed; otherwise it warms up
-/// (buffers grow, caches fill) and so many more are timed; `progress` hears how many are done. Returns the first frame.
+/// Renders run.scene under run.variant and fills `run`: one frame that warms up (buffers grow, drivers compile), which
+/// is returned, then `repeat` timed ones; `progress` hears how many frames are done.
 Frame measure(Run& run, Rasterizer& rasterizer, KernelCache& kernels, unsigned repeat,
               const std::function<void(unsigned)>& progress = {});
 

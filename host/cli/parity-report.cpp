@@ -21,11 +21,17 @@ std::string verdictTable(const std::vector<Outcome>& outcomes) {
   Rows rows{{"device", "route", "name", "probe", "covered", "coverage", "ids", "depths", "hits", "colours", "verdict"}};
   for (const auto& outcome : outcomes) {
     const Difference difference = outcome.run.difference.value_or(Difference{});
-    const auto count = [&](std::uint64_t n) { return outcome.run.difference ? grouped(n) : "-"; };
+    // A dash where there was nothing to compare: no shading, or no depths and ids under commit=count.
+    const auto count = [&](bool compared, std::uint64_t n) {
+      return outcome.run.difference && compared ? grouped(n) : "-";
+    };
+    const Variant& variant = outcome.run.variant;
+    const bool counting = variant.get("commit") == "count", shaded = variant.get("shade") != "none";
     const char* const probe = outcome.probe.results.empty() ? "not run" : outcome.probe.passed() ? "passed" : "FAILED";
-    rows.push_back({outcome.attempt.device, outcome.attempt.route, outcome.run.device.name, probe,
-                    count(outcome.covered), count(difference.coverage), count(difference.id), count(difference.depth),
-                    count(difference.hits), count(difference.colour), verdictText(outcome.verdict())});
+    rows.push_back(
+        {outcome.attempt.device, outcome.attempt.route, outcome.run.device.name, probe, count(true, outcome.covered),
+         count(!counting, difference.coverage), count(!counting, difference.id), count(!counting, difference.depth),
+         count(counting, difference.hits), count(shaded, difference.colour), verdictText(outcome.verdict())});
   }
   return table(rows);
 }

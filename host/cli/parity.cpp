@@ -20,7 +20,7 @@ namespace {
 
 struct ParityOptions : Options {
   std::string json, replay = "parity-difference.replay";
-  unsigned repeat = 0;
+  unsigned repeat = 1;
 };
 
 std::vector<Attempt> listAttempts(const ParityOptions& options) {

@@ -20,7 +20,7 @@ namespace {
 struct RenderOptions : Options {
   std::vector<std::string> outputs;
   std::string json;
-  unsigned repeat = 0;
+  unsigned repeat = 1;
 };
 
 Variant counting(Variant variant) {

@@ -29,9 +29,9 @@ TEST_CASE("Commands and options that do not exist are refused") {
   Desk desk;
   desk.write("two.obj", tessera::test::twoTriangles());
   for (const Mistake& mistake : std::initializer_list<Mistake>{
-           {"", "subcommand"},
+           {"", "a command"},
            {"frobnicate", "frobnicate"},
-           {"''", "no such command"},
+           {"''", "not expected"},
            {"--frobnicate", "--frobnicate"},
            {"render", "INPUT"},
            {"render two.obj", "nothing to write"},
@@ -60,7 +60,7 @@ TEST_CASE("Axes and values that do not exist are refused and those there are nam
            {"render two.obj -o a.png --set tile", "tile"},
            {"render two.obj -o a.png --set tile=", "tile"},
            {"render two.obj -o a.png --set =8", "tile"},
-           {"render two.obj -o a.png --set ''", "tile"},
+           {"render two.obj -o a.png --set ''", "axis=value"},
            {"plan two.obj --set tile=7", "16"},
            {"parity two.obj --set tile=7", "16"},
        })
