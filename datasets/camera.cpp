@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
 #include <limits>
+#include <vector>
 
 namespace tessera {
 namespace {
@@ -30,23 +31,34 @@ Matrix perspective(const Camera& camera, std::uint32_t width, std::uint32_t heig
 }
 
 Matrix frameCamera(const Mesh& mesh, std::uint32_t width, std::uint32_t height) {
+  std::vector<glm::dvec3> points;
   glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-low);
   for (const glm::vec3& p : mesh.positions) {
     if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) continue;
-    low = glm::min(low, glm::dvec3(p));
-    high = glm::max(high, glm::dvec3(p));
+    points.emplace_back(p);
+    low = glm::min(low, points.back());
+    high = glm::max(high, points.back());
   }
-  if (!(low.x <= high.x)) low = high = glm::dvec3(0);
+  if (points.empty()) low = high = glm::dvec3(0);
   const glm::dvec3 centre = (low + high) / 2.0;
-  const double radius = low == high ? 1 : glm::length(high - low) / 2;
-  // The sphere around the box touches the cone of the narrower angle at distance radius / sin; 2% of room.
-  const double slope = 0.4, aspect = double(width) / height, narrow = slope * std::fmin(aspect, 1.0);
-  const double distance = 1.02 * radius * std::sqrt(1 + narrow * narrow) / narrow;
-  const glm::dvec3 forward = glm::normalize(glm::dvec3(0, 0.3, 1));
-  const Camera camera{.eye = centre + forward * distance,
+  const double size = low == high ? 1 : glm::length(high - low);
+  // The eye goes back along an axis from the box's centre until each point is inside the four sides, with 5% of room.
+  const double slope = 0.4, aspect = double(width) / height, room = 0.95;
+  const glm::dvec3 back = glm::normalize(glm::dvec3(0, 0.3, 1)), right(1, 0, 0), up = glm::cross(back, right);
+  double distance = 0, nearest = 0, farthest = 0;  // along the axis, from the centre towards the eye
+  for (const glm::dvec3& point : points) {
+    const glm::dvec3 p = point - centre;
+    const double z = glm::dot(p, back);
+    const double across = std::fmax(std::abs(glm::dot(p, right)) / aspect, std::abs(glm::dot(p, up)));
+    distance = std::fmax(distance, z + across / (slope * room));
+    nearest = std::fmax(nearest, z);
+    farthest = std::fmin(farthest, z);
+  }
+  distance = std::fmax(distance, nearest + 0.1 * size);
+  const Camera camera{.eye = centre + back * distance,
                       .target = centre,
-                      .near = distance - 1.01 * radius,
-                      .far = distance + 1.01 * radius};
+                      .near = 0.9 * (distance - nearest),
+                      .far = 1.1 * (distance - farthest)};
   return clipFromWorld(camera, slope, aspect);
 }
 

@@ -37,7 +37,7 @@ struct GeneratorDoc {
 };
 const std::vector<GeneratorDoc>& generatorDocs();
 
-/// A perspective camera that sees the whole mesh from the front, a little above: deterministic, from the bounding box.
+/// A perspective camera that sees the whole mesh from the front, a little above, as near as its sides allow.
 Matrix frameCamera(const Mesh& mesh, std::uint32_t width, std::uint32_t height);
 /// Appends a mesh to a scene that holds no clip positions (ids follow on).
 void append(Scene& scene, const Mesh& mesh);
