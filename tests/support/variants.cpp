@@ -70,6 +70,22 @@ std::vector<Variant> rasterPaths(const DeviceInfo& device) {
   return combinations(names, device);
 }
 
+std::vector<Variant> eachAlone(const Variant& base, const DeviceInfo& device) {
+  std::vector<Variant> all;
+  for (const Variant& binning : combinations({"binning"}, device)) {
+    all.push_back(joined(base, binning));
+    for (const std::string& name : implementationAxes()) {
+      if (base.has(name) || name == "binning" || !isRead(name, binning)) continue;
+      for (const std::string& value : losslessValues(axis(name))) {
+        if (value.empty()) continue;
+        Variant variant = joined(joined(base, binning), {{name, value}});
+        if (accepted(variant, device)) all.push_back(std::move(variant));
+      }
+    }
+  }
+  return all;
+}
+
 Variant joined(Variant variant, const Variant& more) {
   for (const auto& [name, value] : more.values()) variant.set(name, value);
   return variant;

@@ -19,6 +19,8 @@ std::vector<std::string> implementationAxes();
 std::vector<Variant> combinations(const std::vector<std::string>& axes, const DeviceInfo& device);
 /// The paths of a sample to the frame: combinations of the axes that raster's kernels and the bins depend on.
 std::vector<Variant> rasterPaths(const DeviceInfo& device);
+/// A few of them: for each value of `binning`, the plan's choice for the others, and then each value of each of them alone, on top of `base`.
+std::vector<Variant> eachAlone(const Variant& base, const DeviceInfo& device);
 /// The settings of `more` on top of those of `variant`.
 Variant joined(Variant variant, const Variant& more);
 

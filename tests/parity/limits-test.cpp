@@ -1,0 +1,56 @@
+// Many triangles in one place, and one triangle over many tiles.
+#include <catch2/catch.hpp>
+
+#include "datasets/input.h"
+#include "tests/support/compare.h"
+#include "tests/support/machines.h"
+#include "tests/support/variants.h"
+
+using namespace tessera;
+
+PLACE_TEST_CASE("Nothing of 500000 triangles in one block is lost", "[limits]") {
+  const Scene scene = loadInput("generate:hot?count=500000&block=64", 2048, 2048);
+  const reference::Result oracle = reference::render(scene);
+  for (const char* commit : {"tile-owned", "count"}) {
+    const Variant exact{{"binning", "exact"}, {"commit", commit}}, queue{{"binning", "queue"}, {"capacity", "16"}, {"commit", commit}};
+    INFO("commit=" << commit);
+    const Frame byExact = machine.render(scene, exact), byQueue = machine.render(scene, queue);
+    CHECK(difference(byExact, oracle) == "");
+    CHECK(difference(byQueue, oracle) == "");
+    CHECK(byExact.counters.at("retries") == 0);
+    CHECK(byQueue.counters.at("retries") > 0);
+    CHECK(byQueue.counters.at("overflowed") == 0);
+    // One block is one tile: each triangle that is left after setup is in it.
+    for (const Frame* frame : {&byExact, &byQueue}) {
+      CHECK(frame->counters.at("largestBin") == frame->counters.at("pieces"));
+      CHECK(frame->counters.at("binned") == frame->counters.at("pieces"));
+    }
+  }
+}
+
+PLACE_TEST_CASE("A triangle covers the whole of 4096 x 4096 on each path", "[limits]") {
+  Scene scene;
+  scene.width = scene.height = 4096;
+  scene.clip = {{-1.0f, -1.0f, 0.0f, 1.0f}, {-1.0f, 3.0f, 0.5f, 1.0f}, {3.0f, -1.0f, 1.0f, 1.0f}};
+  scene.triangles = {{0, 1, 2}};
+  const reference::Result oracle = reference::render(scene);
+  REQUIRE(oracle.counts.covered == std::uint64_t{4096} * 4096);
+  for (const Variant& variant : eachAlone({}, machine.info())) {
+    INFO(variant.text());
+    CHECK(difference(machine.render(scene, variant), oracle) == "");
+  }
+}
+
+PLACE_TEST_CASE("A triangle beyond the guard band covers 4096 x 4096", "[limits]") {
+  Scene scene;
+  scene.width = scene.height = 4096;
+  scene.clip = {{-100.0f, -90.0f, 0.25f, 1.0f}, {-80.0f, 300.0f, 0.5f, 1.0f}, {310.0f, -120.0f, 0.75f, 1.0f}};
+  scene.triangles = {{0, 1, 2}};
+  const reference::Result oracle = reference::render(scene);
+  REQUIRE(oracle.counts.clipped == 1);
+  REQUIRE(oracle.counts.covered == std::uint64_t{4096} * 4096);
+  for (const Variant& variant : combinations({"binning"}, machine.info())) {
+    INFO(variant.text());
+    CHECK(difference(machine.render(scene, variant), oracle) == "");
+  }
+}
