@@ -1,9 +1,9 @@
 #include "host/compiler-tools.h"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <cstdlib>
-#include <fmt/format.h>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -65,14 +65,16 @@ std::string checkSlangc(const fs::path& slangc) {
   const TemporaryFolder work(fs::temp_directory_path(), "tessera-slangc");
   const fs::path source = work.path() / "probe.slang", module = work.path() / "probe.spv";
   std::ofstream(source) << kProbeModule;
-  const ProcessResult result = runProcess({slangc.string(), source.string(), "-target", "spirv", "-O1", "-fp-mode", "precise",
-                                           "-entry", "probe", "-stage", "compute", "-o", module.string()});
+  const ProcessResult result = runProcess({slangc.string(), source.string(), "-target", "spirv", "-O1", "-fp-mode",
+                                           "precise", "-entry", "probe", "-stage", "compute", "-o", module.string()});
   if (!result.ok() || !fs::exists(module)) fail("cannot compile a small kernel to SPIR-V: " + firstLine(result.output));
-  if (const std::vector<std::string> violations = checkSpirv(module); !violations.empty()) fail("its SPIR-V is not exact: " + violations[0]);
+  if (const std::vector<std::string> violations = checkSpirv(module); !violations.empty())
+    fail("its SPIR-V is not exact: " + violations[0]);
   return "passed";
 }
 
-/// Model and feature flags of this processor: a home folder may be shared by machines that resolve -march=native differently.
+/// Model and feature flags of this processor: a home folder may be shared by machines that resolve -march=native
+/// differently.
 const std::string& processorIdentity() {
   static const std::string text = [] {
     std::ifstream file("/proc/cpuinfo");
@@ -96,7 +98,8 @@ ToolMemory::ToolMemory(const fs::path& folder) : file_(folder / "tools.json") {
     if (answer.is_string()) answers_[question] = answer;
 }
 
-std::string ToolMemory::recall(const std::string& question, const fs::path& program, const std::function<std::string()>& ask) {
+std::string ToolMemory::recall(const std::string& question, const fs::path& program,
+                               const std::function<std::string()>& ask) {
   const std::string key = question + "|" + identity(program);
   const std::lock_guard lock(mutex_);
   if (const auto known = answers_.find(key); known != answers_.end()) return known->second;
@@ -115,15 +118,23 @@ ToolInfo chooseSlangc(ToolMemory& memory) {
     }
   };
   const auto chosen = [&](const fs::path& path, const char* origin) {
-    return ToolInfo{path, memory.recall("version", path, [&] { return firstLine(run({path.string(), "-version"})); }), origin};
+    return ToolInfo{path,
+                    memory.recall("version", path,
+                                  [&] {
+                                    return firstLine(run({path.string(), "-version"}));
+                                  }),
+                    origin};
   };
   const std::string wanted = environment("SLANGC");
   if (!wanted.empty()) {
     const fs::path path = findProgram(wanted);
     if (path.empty() || access(path.c_str(), X_OK) != 0 || fs::is_directory(path))
-      failUsage(fmt::format("SLANGC={}: no such program; name a slangc, or unset it to use PATH's or the one that ./dev fetches", wanted));
+      failUsage(fmt::format(
+          "SLANGC={}: no such program; name a slangc, or unset it to use PATH's or the one that ./dev fetches",
+          wanted));
     if (const std::string why = fault(path); !why.empty())
-      failUsage(fmt::format("SLANGC={}: {}; Slang 2026.14.1 or later with its optimiser would do, or unset SLANGC", wanted, why));
+      failUsage(fmt::format("SLANGC={}: {}; Slang 2026.14.1 or later with its optimiser would do, or unset SLANGC",
+                            wanted, why));
     return chosen(path, "SLANGC");
   }
   std::string rejected;
@@ -144,17 +155,23 @@ CxxInfo resolveCxx(ToolMemory& memory) {
   CxxInfo info;
   info.path = findProgram(TESSERA_CXX);
   if (info.path.empty() || access(info.path.c_str(), X_OK) != 0)
-    fail(fmt::format("{}: the C++ compiler of this build is not here any more; CPU kernels need it: install it or build again", TESSERA_CXX));
+    fail(fmt::format(
+        "{}: the C++ compiler of this build is not here any more; CPU kernels need it: install it or build again",
+        TESSERA_CXX));
   const std::string compiler = info.path.string();
   const std::string machine = "|" + processorIdentity();
   info.targetMacros = memory.recall("macros" + machine, info.path, [&] {
     return run({compiler, "-march=native", "-dM", "-E", "-x", "c++", "/dev/null"});
   });
-  const std::string version = memory.recall("version", info.path, [&] { return firstLine(run({compiler, "--version"})); });
-  const bool clang = info.targetMacros.find("#define __clang__ ") != std::string::npos;  // c++ and cc1plus wrappers hide who they are
+  const std::string version = memory.recall("version", info.path, [&] {
+    return firstLine(run({compiler, "--version"}));
+  });
+  const bool clang =
+      info.targetMacros.find("#define __clang__ ") != std::string::npos;  // c++ and cc1plus wrappers hide who they are
   info.version = (clang ? "clang++ " : "g++ ") + version.substr(version.find_last_of(' ') + 1);
   info.target = memory.recall("target" + machine, info.path, [&]() -> std::string {
-    const ProcessResult help = runProcess({compiler, "-march=native", "-Q", "--help=target"});  // GCC's way; others have no short name for it
+    const ProcessResult help =
+        runProcess({compiler, "-march=native", "-Q", "--help=target"});  // GCC's way; others have no short name for it
     std::istringstream words(help.output);
     for (std::string word; help.ok() && words >> word;)
       if (word == "-march=" && words >> word) return word;

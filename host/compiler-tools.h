@@ -11,13 +11,14 @@
 
 namespace tessera {
 
-/// Answers about programs, kept in a file of the cache folder by the program's path, size and time of change, so that a warm start runs none.
-/// A folder that cannot be written costs the memory, nothing else. Thread-safe.
+/// Answers about programs, kept in a file of the cache folder by the program's path, size and time of change, so that a
+/// warm start runs none. A folder that cannot be written costs the memory, nothing else. Thread-safe.
 class ToolMemory {
  public:
   explicit ToolMemory(const std::filesystem::path& folder);
   /// The answer to `question` about `program`; `ask` is called if it is not known for this very file.
-  std::string recall(const std::string& question, const std::filesystem::path& program, const std::function<std::string()>& ask);
+  std::string recall(const std::string& question, const std::filesystem::path& program,
+                     const std::function<std::string()>& ask);
 
  private:
   std::filesystem::path file_;
@@ -25,16 +26,16 @@ class ToolMemory {
   std::map<std::string, std::string> answers_;
 };
 
-/// $SLANGC if set; else the first slangc in PATH that will do; else the pinned one that ./dev fetched. One will do if it compiles a small
-/// module at -O1 (which takes its optimiser: Mesa refuses some of what slangc writes without one) and the result passes checkSpirv().
-/// Throws kUsage where $SLANGC will not do, and where there is none.
+/// $SLANGC if set; else the first slangc in PATH that will do; else the pinned one that ./dev fetched. One will do if
+/// it compiles a small module at -O1 (which takes its optimiser: Mesa refuses some of what slangc writes without one)
+/// and the result passes checkSpirv(). Throws kUsage where $SLANGC will not do, and where there is none.
 ToolInfo chooseSlangc(ToolMemory& memory);
 
 struct CxxInfo {
   std::filesystem::path path;
-  std::string version;        ///< "g++ 12.2.0"
-  std::string target;         ///< what -march=native stands for, e.g. "znver4"
-  std::string targetMacros;   ///< what it predefines for that: the features are part of the key, since hypervisors mask some
+  std::string version;       ///< "g++ 12.2.0"
+  std::string target;        ///< what -march=native stands for, e.g. "znver4"
+  std::string targetMacros;  ///< predefined for that target; in the key, since hypervisors mask features of a processor
 };
 /// The C++ compiler that this build was made with. Throws kFailure if it is gone.
 CxxInfo resolveCxx(ToolMemory& memory);

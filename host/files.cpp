@@ -1,9 +1,9 @@
 #include "host/files.h"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <atomic>
-#include <fmt/format.h>
 #include <fstream>
 
 #include "host/error.h"

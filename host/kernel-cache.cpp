@@ -1,12 +1,12 @@
 #include "host/kernel-cache.h"
 
+#include <fmt/format.h>
 #include <openssl/evp.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cstdlib>
 #include <exception>
-#include <fmt/format.h>
 #include <fstream>
 #include <mutex>
 #include <nlohmann/json.hpp>
@@ -42,7 +42,8 @@ constexpr const char* kFormat = "tessera kernel 1";
 std::string sha256(std::string_view text) {
   unsigned char digest[EVP_MAX_MD_SIZE];
   unsigned length = 0;
-  if (EVP_Digest(text.data(), text.size(), digest, &length, EVP_sha256(), nullptr) != 1) fail("SHA-256 is not available in libcrypto");
+  if (EVP_Digest(text.data(), text.size(), digest, &length, EVP_sha256(), nullptr) != 1)
+    fail("SHA-256 is not available in libcrypto");
   return fmt::format("{:02x}", fmt::join(digest, digest + length, ""));
 }
 
@@ -65,7 +66,8 @@ constexpr const char* kInterfaceFile = "interface.json";
 
 std::string entryText(const KernelInterface& interface, const std::string& binary) {
   const nlohmann::json stored = toJson(interface);
-  return nlohmann::json{{"interface", stored}, {"interfaceHash", sha256(stored.dump())}, {"binaryHash", sha256(binary)}}.dump(1);
+  return nlohmann::json{{"interface", stored}, {"interfaceHash", sha256(stored.dump())}, {"binaryHash", sha256(binary)}}
+      .dump(1);
 }
 
 /// The interface of a whole entry; nothing where a file is missing, cut short or changed.
@@ -91,7 +93,8 @@ struct KernelCache::State {
   std::optional<ToolInfo> slangc, glslang;
   std::optional<CxxInfo> cxx;
 
-  explicit State(Options given) : options(std::move(given)), memory(options.folder), cxxFlags(splitWords(TESSERA_KERNEL_CXX_FLAGS)) {
+  explicit State(Options given)
+      : options(std::move(given)), memory(options.folder), cxxFlags(splitWords(TESSERA_KERNEL_CXX_FLAGS)) {
     for (std::string& flag : splitWords(options.extraCxxFlags)) cxxFlags.push_back(std::move(flag));
   }
 
@@ -114,9 +117,12 @@ struct KernelCache::State {
     return settings;
   }
 
-  std::string key(const KernelRequest& request, const CompileSettings& settings, const std::map<fs::path, std::string>& sources) const {
+  std::string key(const KernelRequest& request, const CompileSettings& settings,
+                  const std::map<fs::path, std::string>& sources) const {
     std::string all;
-    const auto add = [&](std::string_view part) { all += fmt::format("{}:", part.size()).append(part); };  // lengths keep parts apart
+    const auto add = [&](std::string_view part) {
+      all += fmt::format("{}:", part.size()).append(part);
+    };  // lengths keep parts apart
     add(kFormat);
     add(request.source);
     add(request.entry);
@@ -137,20 +143,22 @@ struct KernelCache::State {
     return sha256(all);
   }
 
-  /// Compiles beside the entry and renames the files into it, the interface last. Two that do so at once rename the same bytes; should
-  /// a compiler be less deterministic than that, the hashes tell and the entry is built again.
-  KernelInterface fill(const KernelRequest& request, const CompileSettings& settings, const std::map<fs::path, std::string>& sources,
-                       const fs::path& entry) {
+  /// Compiles beside the entry and renames the files into it, the interface last. Two that do so at once rename the
+  /// same bytes; should a compiler be less deterministic than that, the hashes tell and the entry is built again.
+  KernelInterface fill(const KernelRequest& request, const CompileSettings& settings,
+                       const std::map<fs::path, std::string>& sources, const fs::path& entry) {
     std::error_code error;
     fs::create_directories(entry, error);
     if (error)
-      fail(fmt::format("kernel cache: {}: {}; set TESSERA_CACHE to a folder that can be written", entry.string(), error.message()));
+      fail(fmt::format("kernel cache: {}: {}; set TESSERA_CACHE to a folder that can be written", entry.string(),
+                       error.message()));
     const TemporaryFolder work(entry.parent_path(), entry.filename().string());
     const KernelInterface interface = compileKernel(request, settings, sources, work.path());
     const fs::path made = work.path() / binaryName(request.route), binary = entry / binaryName(request.route);
     const std::string text = entryText(interface, readText(made));
     fs::rename(made, binary, error);
-    if (error || !writeBeside(entry / kInterfaceFile, text)) fail(fmt::format("kernel cache: {}: cannot be written", entry.string()));
+    if (error || !writeBeside(entry / kInterfaceFile, text))
+      fail(fmt::format("kernel cache: {}: cannot be written", entry.string()));
     return interface;
   }
 };
@@ -163,8 +171,9 @@ KernelCache::KernelCache(Options options) {
   options.folder = fs::absolute(options.folder).lexically_normal();
   options.slangSources = fs::absolute(options.slangSources).lexically_normal();
   if (!fs::is_directory(options.slangSources))
-    failUsage(fmt::format("{}: no such folder; the kernels' Slang sources are looked for there: set TESSERA_SLANG_SOURCES to them",
-                          options.slangSources.string()));
+    failUsage(fmt::format(
+        "{}: no such folder; the kernels' Slang sources are looked for there: set TESSERA_SLANG_SOURCES to them",
+        options.slangSources.string()));
   state_ = std::make_unique<State>(std::move(options));
 }
 
@@ -172,11 +181,13 @@ KernelCache::~KernelCache() = default;
 
 CompiledKernel KernelCache::get(const KernelRequest& request) {
   const CompileSettings settings = state_->settings(request.route);
-  const auto sources = slangSources(settings.slangSources, settings.slangSources / request.source, request.variantModule);
+  const auto sources =
+      slangSources(settings.slangSources, settings.slangSources / request.source, request.variantModule);
   const std::string hash = state_->key(request, settings, sources);
   const fs::path entry = state_->options.folder / hash.substr(0, 2) / hash;
 
-  CompiledKernel kernel{request.stage, binaryEntry(request), request.route, entry / binaryName(request.route), hash, {}};
+  CompiledKernel kernel{
+      request.stage, binaryEntry(request), request.route, entry / binaryName(request.route), hash, {}};
   if (auto found = readEntry(entry, request.route)) {
     ++state_->hits;
     kernel.interface = std::move(*found);
@@ -208,7 +219,8 @@ std::vector<CompiledKernel> KernelCache::getAll(const std::vector<KernelRequest>
       }
     }
   };
-  std::vector<std::thread> workers(std::min<std::size_t>(requests.size(), std::max(1u, std::thread::hardware_concurrency())));
+  std::vector<std::thread> workers(
+      std::min<std::size_t>(requests.size(), std::max(1u, std::thread::hardware_concurrency())));
   for (std::thread& worker : workers) worker = std::thread(work);
   for (std::thread& worker : workers) worker.join();
   if (failure) std::rethrow_exception(failure);

@@ -1,8 +1,9 @@
 #include "host/reflection.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -13,7 +14,9 @@ namespace {
 
 using nlohmann::json;
 
-struct Size { std::uint32_t value = 0, alignment = 1; };
+struct Size {
+  std::uint32_t value = 0, alignment = 1;
+};
 
 /// Bytes of a type in memory, as laid out for this route.
 Size uniformSize(const json& type) {
@@ -22,7 +25,9 @@ Size uniformSize(const json& type) {
   return {};
 }
 
-constexpr std::uint32_t roundUp(std::uint32_t value, std::uint32_t alignment) { return (value + alignment - 1) / alignment * alignment; }
+constexpr std::uint32_t roundUp(std::uint32_t value, std::uint32_t alignment) {
+  return (value + alignment - 1) / alignment * alignment;
+}
 
 /// slangc's C++ keeps every global in the struct of parameters, and writes `...->name_0` where one is used.
 bool appearsIn(const std::string& text, const std::string& name) {
@@ -63,8 +68,11 @@ KernelInterface readReflection(const std::string& text, Route route, const std::
     const json& binding = parameter.at("binding");
     const json& type = parameter.at("type");
     const std::uint32_t place = binding.at(route == Route::kCpp ? "offset" : "index");
-    if (route == Route::kCpp) interface.globalsSize = std::max(interface.globalsSize, roundUp(place + binding.at("size").get<std::uint32_t>(), 8));
-    else if (binding.value("space", 0) != 0) fail(fmt::format("`{}` is in descriptor set {}; Tessera binds set 0 only", name, binding["space"].dump()));
+    if (route == Route::kCpp)
+      interface.globalsSize =
+          std::max(interface.globalsSize, roundUp(place + binding.at("size").get<std::uint32_t>(), 8));
+    else if (binding.value("space", 0) != 0)
+      fail(fmt::format("`{}` is in descriptor set {}; Tessera binds set 0 only", name, binding["space"].dump()));
     if (unused.count(name)) continue;
     if (type.at("kind") == "constantBuffer") {
       if (name != "frame") fail(fmt::format("constant buffer `{}`: a kernel has one, named `frame`", name));
@@ -85,8 +93,11 @@ KernelInterface readReflection(const std::string& text, Route route, const std::
 json toJson(const KernelInterface& interface) {
   json fields = json::object();
   for (const auto& [name, field] : interface.fields) fields[name] = {field.offset, field.size};
-  return {{"fields", fields}, {"blockSize", interface.blockSize}, {"resources", interface.resources},
-          {"elementSizes", interface.elementSizes}, {"globalsSize", interface.globalsSize}};
+  return {{"fields", fields},
+          {"blockSize", interface.blockSize},
+          {"resources", interface.resources},
+          {"elementSizes", interface.elementSizes},
+          {"globalsSize", interface.globalsSize}};
 }
 
 KernelInterface interfaceFromJson(const json& stored) {

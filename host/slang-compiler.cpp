@@ -1,6 +1,7 @@
 #include "host/slang-compiler.h"
 
 #include <fmt/format.h>
+
 #include <fstream>
 #include <sstream>
 
@@ -15,7 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Slang's prelude asks these macros at every index into a buffer or an array. Throwing crosses the entry point to the dispatch.
+/// Slang's prelude asks these macros at every index into a buffer or an array. Throwing crosses the entry point to the
+/// dispatch.
 constexpr const char* kBoundsChecks = R"(#include <stdexcept>
 #include <string>
 [[noreturn]] static void tesseraOutOfBounds(size_t index, size_t count)
@@ -31,8 +33,9 @@ std::string trimmed(const std::string& text) {
   return first == std::string::npos ? "" : text.substr(first);
 }
 
-/// The first error in a compiler's output that has a place, or the first one, as one line. slangc writes "error[E30015]: title", then
-/// " --> file:line:column", then the source with "^^^ message" under it; the others, and older slangcs, write all on one line.
+/// The first error in a compiler's output that has a place, or the first one, as one line. slangc writes
+/// "error[E30015]: title", then " --> file:line:column", then the source with "^^^ message" under it; the others, and
+/// older slangcs, write all on one line.
 std::string firstError(const std::string& output) {
   std::istringstream lines(output);
   std::string line, title, place, first;
@@ -42,10 +45,12 @@ std::string firstError(const std::string& output) {
     if (first.empty() && isError) first = line;
     if (isError && !isTitle && title.empty()) return first;
     if (isTitle && place.empty()) title = line;
-    if (const std::size_t arrow = line.find(" --> "); arrow != std::string::npos && !title.empty() && place.empty()) place = line.substr(arrow + 5);
+    if (const std::size_t arrow = line.find(" --> "); arrow != std::string::npos && !title.empty() && place.empty())
+      place = line.substr(arrow + 5);
     if (const std::size_t caret = line.find('^'); caret != std::string::npos && !place.empty()) {
       const std::string message = trimmed(line.substr(caret));
-      return fmt::format("{}: {}", place, message.empty() ? title : title.substr(0, title.find(':') + 1) + " " + message);
+      return fmt::format("{}: {}", place,
+                         message.empty() ? title : title.substr(0, title.find(':') + 1) + " " + message);
     }
   }
   if (first.empty()) return output.empty() ? "it says nothing" : output.substr(0, output.find('\n'));
@@ -53,51 +58,68 @@ std::string firstError(const std::string& output) {
 }
 
 std::string describe(const KernelRequest& request) {
-  return fmt::format("kernel {} ({}){}", request.stage, request.source, request.variantName.empty() ? "" : " [" + request.variantName + "]");
+  return fmt::format("kernel {} ({}){}", request.stage, request.source,
+                     request.variantName.empty() ? "" : " [" + request.variantName + "]");
 }
 
 void runCompiler(const KernelRequest& request, const std::vector<std::string>& arguments, const fs::path& made) {
   const ProcessResult result = runProcess(arguments);
   if (!result.ok() || !fs::exists(made))
-    fail(fmt::format("{}: {}: {}", describe(request), fs::path(arguments[0]).filename().string(), firstError(result.output)));
+    fail(fmt::format("{}: {}: {}", describe(request), fs::path(arguments[0]).filename().string(),
+                     firstError(result.output)));
 }
 
-void append(std::vector<std::string>& to, const std::vector<std::string>& more) { to.insert(to.end(), more.begin(), more.end()); }
+void append(std::vector<std::string>& to, const std::vector<std::string>& more) {
+  to.insert(to.end(), more.begin(), more.end());
+}
 
-/// Throws if slangc read a file that the key knows nothing of. The list is a make rule: "output: file file", spaces escaped.
+/// Throws if slangc read a file that the key knows nothing of. The list is a make rule: "output: file file", spaces
+/// escaped.
 void checkDependencies(const std::string& rule, const std::map<fs::path, std::string>& sources, const fs::path& work) {
   const auto check = [&](const std::string& file) {
     if (file.empty() || !fs::exists(file)) return;
     const fs::path path = fs::weakly_canonical(file);
     for (const auto& [known, text] : sources)
       if (fs::weakly_canonical(known) == path) return;
-    if (path.parent_path() != fs::weakly_canonical(work)) fail(fmt::format("{}: read by slangc, but no import names it", file));
+    if (path.parent_path() != fs::weakly_canonical(work))
+      fail(fmt::format("{}: read by slangc, but no import names it", file));
   };
   std::string file;
   const std::size_t colon = rule.find(": ");
   for (std::size_t i = colon == std::string::npos ? rule.size() : colon + 2; i < rule.size(); ++i) {
-    if (rule[i] == '\\' && i + 1 < rule.size() && rule[i + 1] != '\n') file += rule[++i];
-    else if (rule[i] == ' ' || rule[i] == '\n' || rule[i] == '\\') check(file), file.clear();
-    else file += rule[i];
+    if (rule[i] == '\\' && i + 1 < rule.size() && rule[i + 1] != '\n')
+      file += rule[++i];
+    else if (rule[i] == ' ' || rule[i] == '\n' || rule[i] == '\\')
+      check(file), file.clear();
+    else
+      file += rule[i];
   }
   check(file);
 }
 
 /// Slang's C++ with what stands ahead of it, to a shared object.
-void compileCpp(const KernelRequest& request, const CompileSettings& settings, const std::string& generated, const fs::path& work) {
+void compileCpp(const KernelRequest& request, const CompileSettings& settings, const std::string& generated,
+                const fs::path& work) {
   const fs::path source = work / "kernel.cpp", made = work / binaryName(request.route);
   const fs::path atomics = settings.slangSources / "atomics-cpp.h";
-  std::ofstream(source) << (settings.boundsChecks ? kBoundsChecks : "") << (fs::exists(atomics) ? readText(atomics) : "") << generated;
+  std::ofstream(source) << (settings.boundsChecks ? kBoundsChecks : "")
+                        << (fs::exists(atomics) ? readText(atomics) : "") << generated;
   std::vector<std::string> arguments{settings.cxx.path.string()};
   append(arguments, cxxBaseFlags());
   append(arguments, settings.cxxFlags);
-  append(arguments, {"-o", made.string(), source.string()});
+  // The folder's name must not reach the binary (debug information has it): two that compile the same kernel make the
+  // same bytes.
+  append(arguments, {"-ffile-prefix-map=" + work.string() + "=.", "-o", made.string(), source.string()});
   runCompiler(request, arguments, made);
 }
 
-void compileGlsl(const KernelRequest& request, const CompileSettings& settings, const fs::path& source, const fs::path& work) {
+void compileGlsl(const KernelRequest& request, const CompileSettings& settings, const fs::path& source,
+                 const fs::path& work) {
   const fs::path made = work / binaryName(request.route);
-  runCompiler(request, {settings.glslang.path.string(), "-V", "--target-env", "vulkan1.2", "-S", "comp", "-o", made.string(), source.string()}, made);
+  runCompiler(request,
+              {settings.glslang.path.string(), "-V", "--target-env", "vulkan1.2", "-S", "comp", "-o", made.string(),
+               source.string()},
+              made);
   std::vector<std::uint32_t> words = readSpirv(made);
   decorateNoContraction(words);
   writeSpirv(made, words);
@@ -106,14 +128,23 @@ void compileGlsl(const KernelRequest& request, const CompileSettings& settings, 
 }  // namespace
 
 const std::vector<std::string>& cxxBaseFlags() {
-  static const std::vector<std::string> flags{"-std=c++17", "-O3", "-march=native", "-ffp-contract=off", "-fno-math-errno",
-                                              "-fno-trapping-math", "-fno-semantic-interposition", "-fvisibility=hidden",
-                                              "-shared", "-fPIC", "-w"};
+  static const std::vector<std::string> flags{"-std=c++17",
+                                              "-O3",
+                                              "-march=native",
+                                              "-ffp-contract=off",
+                                              "-fno-math-errno",
+                                              "-fno-trapping-math",
+                                              "-fno-semantic-interposition",
+                                              "-fvisibility=hidden",
+                                              "-shared",
+                                              "-fPIC",
+                                              "-w"};
   return flags;
 }
 
 std::vector<std::string> slangFlags(Route route) {
-  if (route == Route::kCpp) return {"-target", "cpp", "-DTESSERA_CPP", "-fp-mode", "precise", "-line-directive-mode", "none"};
+  if (route == Route::kCpp)
+    return {"-target", "cpp", "-DTESSERA_CPP", "-fp-mode", "precise", "-line-directive-mode", "none"};
   if (route == Route::kGlsl) return {"-target", "glsl", "-fp-mode", "precise", "-line-directive-mode", "none"};
   return {"-target", "spirv", "-O1", "-fp-mode", "precise"};
 }
@@ -126,13 +157,15 @@ KernelInterface compileKernel(const KernelRequest& request, const CompileSetting
                               const std::map<fs::path, std::string>& sources, const fs::path& work) {
   std::ofstream(work / "variant.slang") << request.variantModule;
   const fs::path reflection = work / "reflection.json", dependencies = work / "dependencies";
-  const fs::path made = request.route == Route::kSpirv ? work / binaryName(request.route)
-                                                       : work / (request.route == Route::kCpp ? "slang.cpp" : "kernel.comp");
-  std::vector<std::string> arguments{settings.slangc.path.string(), (settings.slangSources / request.source).string(),
-                                     "-I", work.string(), "-I", settings.slangSources.string()};
+  const fs::path made = request.route == Route::kSpirv
+                            ? work / binaryName(request.route)
+                            : work / (request.route == Route::kCpp ? "slang.cpp" : "kernel.comp");
+  std::vector<std::string> arguments{
+      settings.slangc.path.string(), (settings.slangSources / request.source).string(), "-I", work.string(), "-I",
+      settings.slangSources.string()};
   append(arguments, slangFlags(request.route));
-  append(arguments, {"-entry", request.entry, "-stage", "compute", "-o", made.string(), "-reflection-json", reflection.string(),
-                     "-depfile", dependencies.string()});
+  append(arguments, {"-entry", request.entry, "-stage", "compute", "-o", made.string(), "-reflection-json",
+                     reflection.string(), "-depfile", dependencies.string()});
   runCompiler(request, arguments, made);
 
   try {

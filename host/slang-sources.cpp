@@ -1,9 +1,10 @@
 #include "host/slang-sources.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <fmt/format.h>
 #include <fstream>
 #include <string_view>
 #include <vector>
@@ -41,7 +42,8 @@ std::vector<fs::path> namedBy(std::string_view line) {
     line = trimmed(line.substr(1));
     if (!takeWord(line, "include")) return {};
   } else {
-    while (takeWord(line, "public") || takeWord(line, "internal") || takeWord(line, "__exported")) {}
+    while (takeWord(line, "public") || takeWord(line, "internal") || takeWord(line, "__exported")) {
+    }
     if (!takeWord(line, "import") && !takeWord(line, "__include") && !takeWord(line, "implementing")) return {};
   }
   if (line.empty()) return {};
@@ -68,7 +70,8 @@ std::string readText(const fs::path& path) {
   return text;
 }
 
-std::map<fs::path, std::string> slangSources(const fs::path& root, const fs::path& entry, const std::string& variantModule) {
+std::map<fs::path, std::string> slangSources(const fs::path& root, const fs::path& entry,
+                                             const std::string& variantModule) {
   std::map<fs::path, std::string> sources;
   std::vector<fs::path> pending{entry.lexically_normal()};
   const auto scan = [&](const std::string& text, const fs::path& beside) {
@@ -76,7 +79,8 @@ std::map<fs::path, std::string> slangSources(const fs::path& root, const fs::pat
       const std::size_t end = std::min(text.find('\n', at), text.size());
       for (const fs::path& name : namedBy(std::string_view(text).substr(at, end - at)))
         for (const fs::path& folder : {beside, root})
-          if (const fs::path file = (folder / name).lexically_normal(); !sources.count(file) && isFile(file)) pending.push_back(file);
+          if (const fs::path file = (folder / name).lexically_normal(); !sources.count(file) && isFile(file))
+            pending.push_back(file);
       at = end + 1;
     }
   };

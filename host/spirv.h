@@ -16,9 +16,10 @@ void writeSpirv(const std::filesystem::path& module, const std::vector<std::uint
 /// checkSpirv() of kernel-cache.h, on words.
 std::vector<std::string> checkSpirv(const std::vector<std::uint32_t>& words);
 
-/// Adds NoContraction to every float sum, difference, product and quotient that lacks it. glslang keeps them apart but writes the
-/// decoration only for what GLSL calls `precise`, which is a quality of variables: an expression that goes straight into a buffer or
-/// a comparison has none to put it on. So it is put on the instructions, where the driver reads it. No instruction changes.
+/// Adds NoContraction to every float sum, difference, product and quotient that lacks it. glslang keeps them apart but
+/// writes the decoration only for what GLSL calls `precise`, which is a quality of variables: an expression that goes
+/// straight into a buffer or a comparison has none to put it on. So it is put on the instructions, where the driver
+/// reads it. No instruction changes.
 void decorateNoContraction(std::vector<std::uint32_t>& words);
 
 }  // namespace tessera

@@ -1,6 +1,7 @@
 #include "host/subprocess.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -8,7 +9,6 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
-#include <fmt/format.h>
 
 #include "host/error.h"
 
@@ -56,12 +56,15 @@ ProcessResult runProcess(const std::vector<std::string>& arguments) {
   ProcessResult result;
   char chunk[4096];
   for (ssize_t got; (got = read(ends[0], chunk, sizeof chunk)) != 0;) {
-    if (got > 0) result.output.append(chunk, static_cast<std::size_t>(got));
-    else if (errno != EINTR) break;
+    if (got > 0)
+      result.output.append(chunk, static_cast<std::size_t>(got));
+    else if (errno != EINTR)
+      break;
   }
   close(ends[0]);
   int status = 0;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {}
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
   result.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   return result;
 }

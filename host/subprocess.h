@@ -9,15 +9,16 @@
 namespace tessera {
 
 struct ProcessResult {
-  int status = 0;       ///< exit status; 128 + the signal's number if one ended it
-  std::string output;   ///< stdout and stderr together, in the C locale
+  int status = 0;      ///< exit status; 128 + the signal's number if one ended it
+  std::string output;  ///< stdout and stderr together, in the C locale
   bool ok() const { return status == 0; }
 };
 
 /// Runs `arguments[0]` (a path) and waits for it. Throws kFailure only if it cannot be started.
 ProcessResult runProcess(const std::vector<std::string>& arguments);
 
-/// Full path of a program: `name` itself where it holds a slash, else the first executable of that name in PATH. Empty if there is none.
+/// Full path of a program: `name` itself where it holds a slash, else the first executable of that name in PATH. Empty
+/// if there is none.
 std::filesystem::path findProgram(std::string_view name);
 
 }  // namespace tessera

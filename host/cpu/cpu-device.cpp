@@ -1,13 +1,13 @@
 #include "host/cpu/cpu-device.h"
 
 #include <dlfcn.h>
+#include <fmt/format.h>
 #include <sys/mman.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <cstring>
-#include <fmt/format.h>
 #include <fstream>
 #include <numeric>
 #include <random>
@@ -26,16 +26,20 @@ constexpr bool kPlainThreads = true;  // the thread sanitizer cannot see into on
 #else
 constexpr bool kPlainThreads = false;
 #endif
+
 constexpr std::size_t kCacheLine = 64;
 constexpr std::size_t kHugePage = 2u << 20;
 constexpr std::size_t kFillPiece = 64u << 10;  // bytes a piece of a fill
 
 /// Bytes held now and at most; buffers may outlive their device.
-struct Ledger { std::uint64_t now = 0, peak = 0; };
+struct Ledger {
+  std::uint64_t now = 0, peak = 0;
+};
 
 class CpuBuffer final : public Buffer {
  public:
-  CpuBuffer(std::size_t bytes, std::string_view name, std::shared_ptr<Ledger> ledger) : bytes_(bytes), ledger_(std::move(ledger)) {
+  CpuBuffer(std::size_t bytes, std::string_view name, std::shared_ptr<Ledger> ledger)
+      : bytes_(bytes), ledger_(std::move(ledger)) {
     const bool large = bytes >= kHugePage;
     if (posix_memalign(&data_, large ? kHugePage : kCacheLine, std::max(bytes, kCacheLine)) != 0)
       fail(fmt::format("cpu: no memory for buffer {} of {} bytes", name, bytes));
@@ -59,7 +63,9 @@ class CpuBuffer final : public Buffer {
 };
 
 /// What slangc's C++ takes: a range of groups, end exclusive in each dimension.
-struct GroupRange { std::uint32_t start[3], end[3]; };
+struct GroupRange {
+  std::uint32_t start[3], end[3];
+};
 using Entry = void (*)(GroupRange*, void* entryPointParams, void* globalParams);
 
 class CpuKernel final : public Kernel {
@@ -71,7 +77,8 @@ class CpuKernel final : public Kernel {
     entry_ = reinterpret_cast<Entry>(dlsym(library_, compiled.entry.c_str()));
     if (entry_ == nullptr) {
       dlclose(library_);
-      fail(fmt::format("cpu: kernel {}: {} has no entry point {}", compiled.stage, compiled.binary.string(), compiled.entry));
+      fail(fmt::format("cpu: kernel {}: {} has no entry point {}", compiled.stage, compiled.binary.string(),
+                       compiled.entry));
     }
   }
   ~CpuKernel() override { dlclose(library_); }
@@ -111,19 +118,22 @@ std::byte* slice(const Buffer& buffer, std::size_t offset, std::size_t bytes, co
 std::string processorName() {
   std::ifstream file("/proc/cpuinfo");
   for (std::string line; std::getline(file, line);)
-    if (const std::size_t colon = line.find(": "); line.rfind("model name", 0) == 0 && colon != std::string::npos) return line.substr(colon + 2);
+    if (const std::size_t colon = line.find(": "); line.rfind("model name", 0) == 0 && colon != std::string::npos)
+      return line.substr(colon + 2);
   return "CPU";
 }
 
 std::uint64_t nowNs() {
   return static_cast<std::uint64_t>(
-      std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch()).count());
+      std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch())
+          .count());
 }
 
 class CpuDevice final : public Device {
  public:
   explicit CpuDevice(const CpuOptions& options)
-      : shuffleSeed_(options.shuffleSeed), crew_(options.plainThreads || kPlainThreads ? makePlainCrew(options.threads) : makeTbbCrew(options.threads)) {
+      : shuffleSeed_(options.shuffleSeed),
+        crew_(options.plainThreads || kPlainThreads ? makePlainCrew(options.threads) : makeTbbCrew(options.threads)) {
     info_.api = "cpu";
     info_.name = processorName();
     info_.driver = cpuDriverText();
@@ -136,7 +146,9 @@ class CpuDevice final : public Device {
   std::unique_ptr<Buffer> createBuffer(std::size_t bytes, std::string_view name) override {
     return std::make_unique<CpuBuffer>(bytes, name, ledger_);
   }
-  std::unique_ptr<Kernel> createKernel(const CompiledKernel& kernel) override { return std::make_unique<CpuKernel>(kernel); }
+  std::unique_ptr<Kernel> createKernel(const CompiledKernel& kernel) override {
+    return std::make_unique<CpuKernel>(kernel);
+  }
 
   void write(Buffer& buffer, std::size_t offset, std::span<const std::byte> data) override {
     std::copy(data.begin(), data.end(), slice(buffer, offset, data.size(), "write"));
@@ -146,15 +158,18 @@ class CpuDevice final : public Device {
     std::copy(from, from + data.size(), data.begin());
   }
   void fill(Buffer& buffer, std::size_t offset, std::size_t bytes, std::uint32_t value) override {
-    if (bytes % 4 != 0 || offset % 4 != 0) fail(fmt::format("cpu: fill of {} bytes at {}: both are multiples of 4", bytes, offset));
+    if (bytes % 4 != 0 || offset % 4 != 0)
+      fail(fmt::format("cpu: fill of {} bytes at {}: both are multiples of 4", bytes, offset));
     auto* words = reinterpret_cast<std::uint32_t*>(slice(buffer, offset, bytes, "fill"));
     const std::size_t count = bytes / 4, piece = kFillPiece / 4;
-    spread(*crew_, static_cast<std::uint32_t>((count + piece - 1) / piece), [&](std::uint32_t begin, std::uint32_t end) {
-      std::fill(words + begin * piece, words + std::min(count, end * piece), value);
-    });
+    spread(*crew_, static_cast<std::uint32_t>((count + piece - 1) / piece),
+           [&](std::uint32_t begin, std::uint32_t end) {
+             std::fill(words + begin * piece, words + std::min(count, end * piece), value);
+           });
   }
 
-  void dispatch(const Kernel& kernel, std::span<const Binding> bindings, std::span<const std::byte> block, std::uint32_t groups) override {
+  void dispatch(const Kernel& kernel, std::span<const Binding> bindings, std::span<const std::byte> block,
+                std::uint32_t groups) override {
     const auto* cpu = dynamic_cast<const CpuKernel*>(&kernel);
     if (cpu == nullptr) fail("cpu: a kernel of another device");
     if (groups == 0) return;
@@ -162,8 +177,10 @@ class CpuDevice final : public Device {
     fillGlobals(cpu->compiled(), bindings, block, globals, frame);
     const std::uint64_t begin = nowNs();
     try {
-      if (shuffleSeed_ == 0) spread(*crew_, groups, [&](std::uint32_t first, std::uint32_t last) { cpu->run(first, last, globals); });
-      else runShuffled(*cpu, groups, globals);
+      if (shuffleSeed_ == 0)
+        spread(*crew_, groups, [&](std::uint32_t first, std::uint32_t last) { cpu->run(first, last, globals); });
+      else
+        runShuffled(*cpu, groups, globals);
     } catch (const std::out_of_range& error) {  // Slang's bounds checks, where they are compiled in
       fail(fmt::format("cpu: kernel {}: out of bounds: {}", cpu->compiled().stage, error.what()));
     }
@@ -178,18 +195,22 @@ class CpuDevice final : public Device {
   static constexpr std::size_t kMaxGlobals = 1024, kMaxBlock = 4096;
 
   /// The struct of globals: a pointer to the block, and a pointer and an element count for each structured buffer.
-  static void fillGlobals(const CompiledKernel& kernel, std::span<const Binding> bindings, std::span<const std::byte> block,
-                          std::byte* globals, std::byte* frame) {
+  static void fillGlobals(const CompiledKernel& kernel, std::span<const Binding> bindings,
+                          std::span<const std::byte> block, std::byte* globals, std::byte* frame) {
     const KernelInterface& interface = kernel.interface;
     if (interface.globalsSize > kMaxGlobals || interface.blockSize > kMaxBlock)
-      fail(fmt::format("cpu: kernel {}: {} bytes of globals and {} of `frame` are beyond {} and {}", kernel.stage, interface.globalsSize,
-                       interface.blockSize, kMaxGlobals, kMaxBlock));
+      fail(fmt::format("cpu: kernel {}: {} bytes of globals and {} of `frame` are beyond {} and {}", kernel.stage,
+                       interface.globalsSize, interface.blockSize, kMaxGlobals, kMaxBlock));
     if (block.size() < interface.blockSize)
-      fail(fmt::format("cpu: kernel {}: `frame` has {} bytes, {} were given", kernel.stage, interface.blockSize, block.size()));
+      fail(fmt::format("cpu: kernel {}: `frame` has {} bytes, {} were given", kernel.stage, interface.blockSize,
+                       block.size()));
     std::copy_n(block.begin(), interface.blockSize, frame);
     std::memset(globals, 0, interface.globalsSize);
     const auto put = [&](std::uint32_t offset, const void* pointer, std::uint64_t count, std::size_t bytes) {
-      const struct { const void* pointer; std::uint64_t count; } value{pointer, count};
+      const struct {
+        const void* pointer;
+        std::uint64_t count;
+      } value{pointer, count};
       std::memcpy(globals + offset, &value, bytes);
     };
     for (const auto& [name, offset] : interface.resources) {
@@ -197,14 +218,16 @@ class CpuDevice final : public Device {
         put(offset, frame, 0, sizeof(void*));
         continue;
       }
-      const auto bound = std::find_if(bindings.begin(), bindings.end(), [&](const Binding& b) { return b.name == name && b.buffer != nullptr; });
+      const auto bound = std::find_if(bindings.begin(), bindings.end(),
+                                      [&](const Binding& b) { return b.name == name && b.buffer != nullptr; });
       if (bound == bindings.end()) fail(fmt::format("cpu: kernel {}: nothing is bound to `{}`", kernel.stage, name));
       const CpuBuffer& buffer = own(*bound->buffer);
       put(offset, buffer.data(), buffer.bytes() / interface.elementSizes.at(name), 16);
     }
   }
 
-  /// Group by group in an order that the seed and the number of the dispatch give; with one thread that very order, replayable.
+  /// Group by group in an order that the seed and the number of the dispatch give; with one thread that very order,
+  /// replayable.
   void runShuffled(const CpuKernel& kernel, std::uint32_t groups, void* globals) {
     std::vector<std::uint32_t> order(groups);
     std::iota(order.begin(), order.end(), 0u);

@@ -21,14 +21,18 @@ namespace {
 class TbbCrew final : public Crew {
  public:
   explicit TbbCrew(unsigned threads) : arena_(threads == 0 ? tbb::task_arena::automatic : static_cast<int>(threads)) {
-    // The arena is an upper bound; its workers come from a pool that ends at the number of cores unless it is told otherwise.
+    // The arena is an upper bound; its workers come from a pool that ends at the number of cores unless it is told
+    // otherwise.
     if (threads > tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism))
       more_.emplace(tbb::global_control::max_allowed_parallelism, threads);
     arena_.initialize();
   }
   unsigned threads() const override { return static_cast<unsigned>(arena_.max_concurrency()); }
   void run(const std::function<void()>& work) override {
-    arena_.execute([&] { tbb::parallel_for(0u, threads(), [&](unsigned) { work(); }, tbb::simple_partitioner()); });
+    arena_.execute([&] {
+      tbb::parallel_for(
+          0u, threads(), [&](unsigned) { work(); }, tbb::simple_partitioner());
+    });
   }
 
  private:
@@ -124,7 +128,8 @@ void spread(Crew& crew, std::uint32_t count, const std::function<void(std::uint3
       const std::uint64_t begin = next.fetch_add(piece, std::memory_order_relaxed);
       if (begin >= count) return;
       try {
-        body(static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(std::min<std::uint64_t>(begin + piece, count)));
+        body(static_cast<std::uint32_t>(begin),
+             static_cast<std::uint32_t>(std::min<std::uint64_t>(begin + piece, count)));
       } catch (...) {
         const std::lock_guard lock(failureMutex);
         if (!failure) failure = std::current_exception();
@@ -135,8 +140,10 @@ void spread(Crew& crew, std::uint32_t count, const std::function<void(std::uint3
       before = now;
     }
   };
-  if (count == 1 || threads == 1) drain();
-  else if (count != 0) crew.run(drain);
+  if (count == 1 || threads == 1)
+    drain();
+  else if (count != 0)
+    crew.run(drain);
   if (failure) std::rethrow_exception(failure);
 }
 

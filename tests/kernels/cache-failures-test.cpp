@@ -34,14 +34,19 @@ TEST_CASE("Missing sources are named") {
   KernelRequest request = scaleRequest();
   request.source = "rasterizer/none.slang";
   CHECK(contains(lineOf(ExitCode::kFailure, [&] { shop.open().get(request); }), "rasterizer/none.slang"));
-  CHECK(contains(lineOf(ExitCode::kUsage, [&] { KernelCache({shop.cache, shop.slang / "no-such-folder", false, ""}); }), "no-such-folder"));
+  CHECK(contains(lineOf(ExitCode::kUsage,
+                        [&] {
+                          KernelCache({shop.cache, shop.slang / "no-such-folder", false, ""});
+                        }),
+                 "no-such-folder"));
 }
 
 TEST_CASE("A cache folder that cannot be written is one clear line") {
   const Workshop shop;
   writeText(shop.folder.path() / "file", "not a folder");
-  const std::string line =
-      lineOf(ExitCode::kFailure, [&] { KernelCache({shop.folder.path() / "file" / "cache", shop.slang, false, ""}).get(scaleRequest()); });
+  const std::string line = lineOf(ExitCode::kFailure, [&] {
+    KernelCache({shop.folder.path() / "file" / "cache", shop.slang, false, ""}).get(scaleRequest());
+  });
   CHECK(contains(line, "file/cache"));
   CHECK(contains(line, "TESSERA_CACHE"));
 }
@@ -49,7 +54,8 @@ TEST_CASE("A cache folder that cannot be written is one clear line") {
 TEST_CASE("A file that slangc reads unknown to the key is refused") {
   const Workshop shop;
   writeText(shop.slang / "hidden.slang", "module hidden;\npublic float more() { return 1.0; }\n");
-  writeText(shop.slang / "step-size.slang", "module step_size;\nimport\n  hidden;\npublic float step() { return more(); }\n");
+  writeText(shop.slang / "step-size.slang",
+            "module step_size;\nimport\n  hidden;\npublic float step() { return more(); }\n");
   const std::string line = lineOf(ExitCode::kFailure, [&] { shop.open().get(scaleRequest()); });
   CHECK(contains(line, "hidden.slang"));
   CHECK(contains(line, "no import names it"));
@@ -57,7 +63,9 @@ TEST_CASE("A file that slangc reads unknown to the key is refused") {
 
 TEST_CASE("A kernel whose SPIR-V is not exact is refused on both Vulkan routes") {
   const Workshop shop;
-  writeText(shop.slang / "step-size.slang", "module step_size;\nimport variant;\npublic float step() { return lerp(1.0, values[0], values[1]); }\nStructuredBuffer<float> values;\n");
+  writeText(shop.slang / "step-size.slang",
+            "module step_size;\nimport variant;\npublic float step() { return lerp(1.0, values[0], values[1]); "
+            "}\nStructuredBuffer<float> values;\n");
   for (const Route route : {Route::kSpirv, Route::kGlsl}) {
     const std::string line = lineOf(ExitCode::kFailure, [&] { shop.open().get(scaleRequest(route)); });
     CHECK(contains(line, "not exact"));
@@ -67,7 +75,8 @@ TEST_CASE("A kernel whose SPIR-V is not exact is refused on both Vulkan routes")
 
 TEST_CASE("A resource that no host can bind is refused") {
   const Workshop shop;
-  writeText(shop.slang / "step-size.slang", "module step_size;\nByteAddressBuffer raw;\npublic float step() { return asfloat(raw.Load(0)); }\n");
+  writeText(shop.slang / "step-size.slang",
+            "module step_size;\nByteAddressBuffer raw;\npublic float step() { return asfloat(raw.Load(0)); }\n");
   for (const Route route : {Route::kCpp, Route::kSpirv})
     CHECK(contains(lineOf(ExitCode::kFailure, [&] { shop.open().get(scaleRequest(route)); }), "`raw`"));
 }

@@ -1,4 +1,5 @@
-// The kernel cache: what it finds again, what makes another kernel, and what it does about broken entries and other processes.
+// The kernel cache: what it finds again, what makes another kernel, and what it does about broken entries and other
+// processes.
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -63,7 +64,8 @@ TEST_CASE("Whatever a kernel is made of changes its key and nothing else does") 
   std::set<std::string> hashes;
   const auto isNew = [&](const CompiledKernel& kernel) { return hashes.insert(kernel.hash).second; };
   const auto get = [&](const KernelRequest& request = scaleRequest()) { return shop.open().get(request); };
-  const std::string step = readText(shop.slang / "step-size.slang"), scale = readText(shop.slang / "rasterizer/scale.slang");
+  const std::string step = readText(shop.slang / "step-size.slang"),
+                    scale = readText(shop.slang / "rasterizer/scale.slang");
 
   CHECK(isNew(get()));
   CHECK_FALSE(isNew(get()));
@@ -92,12 +94,14 @@ TEST_CASE("Imports are found as slangc finds them") {
   writeText(shop.slang / "rasterizer/deep/part-one.slang", "import step_size;\n");
   writeText(shop.slang / "textual.slang", "static const int kText = 1;\n");
   writeText(shop.slang / "rasterizer/beside.slang", "module beside;\n");
-  writeText(shop.slang / "rasterizer/many.slang", "#include \"textual.slang\"\n  public import rasterizer.deep.part_one;\n__exported import beside;\n// import unrelated_;\n");
+  writeText(shop.slang / "rasterizer/many.slang",
+            "#include \"textual.slang\"\n  public import rasterizer.deep.part_one;\n__exported import beside;\n// "
+            "import unrelated_;\n");
   std::set<std::string> names;
   for (const auto& [path, text] : slangSources(shop.slang, shop.slang / "rasterizer/many.slang", "import unrelated;\n"))
     names.insert(path.lexically_relative(shop.slang).string());
-  CHECK(names == std::set<std::string>{"rasterizer/many.slang", "textual.slang", "rasterizer/deep/part-one.slang", "step-size.slang",
-                                       "rasterizer/beside.slang", "unrelated.slang"});
+  CHECK(names == std::set<std::string>{"rasterizer/many.slang", "textual.slang", "rasterizer/deep/part-one.slang",
+                                       "step-size.slang", "rasterizer/beside.slang", "unrelated.slang"});
 }
 
 TEST_CASE("A broken entry is built again") {
@@ -174,7 +178,8 @@ TEST_CASE("Many kernels at once come back in order") {
   KernelCache cache = shop.open();
   std::vector<KernelRequest> requests;
   for (int i = 0; i < 6; ++i)
-    requests.push_back(scaleRequest(Route::kSpirv, "module variant;\npublic static const int kStep = " + std::to_string(i % 5) + ";\n"));
+    requests.push_back(scaleRequest(
+        Route::kSpirv, "module variant;\npublic static const int kStep = " + std::to_string(i % 5) + ";\n"));
   std::vector<std::size_t> seen;
   const std::vector<CompiledKernel> kernels = cache.getAll(requests, [&](std::size_t done, std::size_t total) {
     seen.push_back(done);

@@ -39,7 +39,10 @@ constexpr const char* kAtomics = R"slang(module atomics;
 public uint claim(__ref uint word) { __target_switch { case cpp: __intrinsic_asm "__atomic_fetch_add($0, 1u, __ATOMIC_RELAXED)"; } }
 )slang";
 
-struct Frame { std::uint32_t count, value; float factor; };
+struct Frame {
+  std::uint32_t count, value;
+  float factor;
+};
 
 struct Bench {
   Workshop shop;
@@ -51,7 +54,9 @@ struct Bench {
     writeText(shop.slang / "device.slang", kSource);
     writeText(shop.slang / "atomics.slang", kAtomics);
   }
-  std::unique_ptr<Kernel> kernel(const char* entry) { return device->createKernel(cache.get({entry, "device.slang", entry, Route::kCpp, "", ""})); }
+  std::unique_ptr<Kernel> kernel(const char* entry) {
+    return device->createKernel(cache.get({entry, "device.slang", entry, Route::kCpp, "", ""}));
+  }
   void run(const Kernel& kernel, const std::vector<Binding>& bindings, Frame frame, std::uint32_t groups) {
     device->dispatch(kernel, bindings, std::as_bytes(std::span(&frame, 1)), groups);
   }
@@ -67,7 +72,8 @@ struct Bench {
 
 TEST_CASE("Dispatches run in order over every group once on any number of threads") {
   const std::uint32_t groups = 3 * kGroupRow + 1234;
-  for (const CpuOptions& options : {CpuOptions{1}, CpuOptions{2}, CpuOptions{8}, CpuOptions{1, 0, true}, CpuOptions{8, 0, true}, CpuOptions{2, 99}}) {
+  for (const CpuOptions& options : {CpuOptions{1}, CpuOptions{2}, CpuOptions{8}, CpuOptions{1, 0, true},
+                                    CpuOptions{8, 0, true}, CpuOptions{2, 99}}) {
     Bench bench(options);
     CHECK(bench.device->info().threads == options.threads);
     const auto add = bench.kernel("addValue"), times = bench.kernel("multiply");
@@ -147,12 +153,20 @@ TEST_CASE("Bounds checks name the kernel and the index where they are compiled i
   const std::string line = lineOf(ExitCode::kFailure, [&] { checked.run(*pairUp, {{"pairs", pairs.get()}}, {}, 101); });
   CHECK(contains(line, "kernel pairUp"));
   CHECK(contains(line, "index 100 of 100"));
-  CHECK(contains(lineOf(ExitCode::kFailure, [&] { checked.run(*pairUp, {{"pairs", empty.get()}}, {}, 1); }), "index 0 of 0"));
+  CHECK(contains(lineOf(ExitCode::kFailure,
+                        [&] {
+                          checked.run(*pairUp, {{"pairs", empty.get()}}, {}, 1);
+                        }),
+                 "index 0 of 0"));
   checked.run(*pairUp, {{"pairs", pairs.get()}}, {}, 100);  // the device goes on
   const auto words = checked.device->createBuffer(4, "words");
   checked.run(*local, {{"words", words.get()}}, {0, 3, 0}, 1);
   CHECK(checked.read<std::uint32_t>(*words).at(0) == 3);
-  CHECK(contains(lineOf(ExitCode::kFailure, [&] { checked.run(*local, {{"words", words.get()}}, {0, 4, 0}, 1); }), "index 4 of 4"));
+  CHECK(contains(lineOf(ExitCode::kFailure,
+                        [&] {
+                          checked.run(*local, {{"words", words.get()}}, {0, 4, 0}, 1);
+                        }),
+                 "index 4 of 4"));
 }
 
 TEST_CASE("Misuse of a CPU device is one clear line") {
@@ -162,7 +176,10 @@ TEST_CASE("Misuse of a CPU device is one clear line") {
   const auto line = [&](const std::function<void()>& action) { return lineOf(ExitCode::kFailure, action); };
   CHECK(contains(line([&] { bench.run(*add, {{"cursor", words.get()}}, {}, 1); }), "nothing is bound to `words`"));
   CHECK(contains(line([&] { bench.run(*add, {{"words", nullptr}}, {}, 1); }), "nothing is bound to `words`"));
-  CHECK(contains(line([&] { bench.device->dispatch(*add, std::vector<Binding>{{"words", words.get()}}, {}, 1); }), "`frame` has 12 bytes, 0"));
+  CHECK(contains(line([&] {
+                   bench.device->dispatch(*add, std::vector<Binding>{{"words", words.get()}}, {}, 1);
+                 }),
+                 "`frame` has 12 bytes, 0"));
   std::vector<std::byte> data(101);
   CHECK(contains(line([&] { bench.device->write(*words, 0, data); }), "101 bytes"));
   CHECK(contains(line([&] { bench.device->read(*words, ~std::size_t{0}, std::span(data).first(4)); }), "of 100 bytes"));
@@ -199,9 +216,7 @@ TEST_CASE("Times and peak memory are of what ran") {
   Bench bench;
   const std::uint64_t before = bench.device->peakBufferBytes();
   CHECK(before == 0);
-  {
-    const auto a = bench.device->createBuffer(1000, "a"), b = bench.device->createBuffer(500, "b");
-  }
+  { const auto a = bench.device->createBuffer(1000, "a"), b = bench.device->createBuffer(500, "b"); }
   const auto words = bench.device->createBuffer(400, "words");
   CHECK(bench.device->peakBufferBytes() == 1500);
   const auto add = bench.kernel("addValue"), times = bench.kernel("multiply");

@@ -19,7 +19,10 @@ Environment::Environment(const char* name, const std::string& value) : name_(nam
 }
 Environment::~Environment() { before_.empty() ? unsetenv(name_.c_str()) : setenv(name_.c_str(), before_.c_str(), 1); }
 
-Workshop::Workshop() : folder(fs::temp_directory_path(), "tessera-test"), slang(folder.path() / "slang"), cache(folder.path() / "cache") {
+Workshop::Workshop()
+    : folder(fs::temp_directory_path(), "tessera-test"),
+      slang(folder.path() / "slang"),
+      cache(folder.path() / "cache") {
   // What the tools answered about themselves is the same for every test: asked once, in the cache that all tests share.
   KernelCache shared;
   shared.slangc();
@@ -41,11 +44,14 @@ void scaleAll(uint3 group : SV_GroupID)
     results[i] = (values[i] * frame.factor + step()) / 3.0;
 }
 )");
-  writeText(slang / "step-size.slang", "module step_size;\nimport variant;\npublic float step() { return float(kStep); }\n");
+  writeText(slang / "step-size.slang",
+            "module step_size;\nimport variant;\npublic float step() { return float(kStep); }\n");
   writeText(slang / "unrelated.slang", "module unrelated;\n");
 }
 
-KernelCache Workshop::open(bool boundsChecks, const std::string& flags) const { return KernelCache({cache, slang, boundsChecks, flags}); }
+KernelCache Workshop::open(bool boundsChecks, const std::string& flags) const {
+  return KernelCache({cache, slang, boundsChecks, flags});
+}
 
 KernelRequest scaleRequest(Route route, const std::string& variant) {
   return {"scale", "rasterizer/scale.slang", "scaleAll", route, variant, "step=1"};

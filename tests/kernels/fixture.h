@@ -27,8 +27,9 @@ struct Workshop {
   TemporaryFolder folder;
   std::filesystem::path slang, cache;
 
-  /// Sources: rasterizer/scale.slang (entry scaleAll: results[i] = (values[i] * frame.factor + step()) / 3), which imports step_size,
-  /// which is step-size.slang, which imports the variant module; unrelated.slang is imported by none.
+  /// Sources: rasterizer/scale.slang (entry scaleAll: results[i] = (values[i] * frame.factor + step()) / 3), which
+  /// imports step_size, which is step-size.slang, which imports the variant module; unrelated.slang is imported by
+  /// none.
   Workshop();
   KernelCache open(bool boundsChecks = false, const std::string& flags = "") const;
 };
@@ -36,7 +37,8 @@ struct Workshop {
 inline constexpr const char* kVariant = "module variant;\npublic static const int kStep = 1;\n";
 KernelRequest scaleRequest(Route route = Route::kCpp, const std::string& variant = kVariant);
 
-/// The line of the Error that `action` throws, after checking its code; fails the test if it throws none or says more than a line.
+/// The line of the Error that `action` throws, after checking its code; fails the test if it throws none or says more
+/// than a line.
 std::string lineOf(ExitCode code, const std::function<void()>& action);
 
 bool contains(const std::string& text, const std::string& part);

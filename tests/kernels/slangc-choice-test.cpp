@@ -9,18 +9,21 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A program named slangc in a folder of its own: logs a line a call, then runs `body`, in which REAL stands for the true one.
+/// A program named slangc in a folder of its own: logs a line a call, then runs `body`, in which REAL stands for the
+/// true one.
 fs::path makeSlangc(const Workshop& shop, const std::string& name, std::string body) {
   static const fs::path real = shop.open().slangc().path;
   if (const std::size_t at = body.find("REAL"); at != std::string::npos) body.replace(at, 4, real.string());
   const fs::path program = shop.folder.path() / name / "slangc";
-  writeText(program, "#!/bin/sh\necho called >> '" + (shop.folder.path() / name / "log").string() + "'\n" + body + "\n");
+  writeText(program,
+            "#!/bin/sh\necho called >> '" + (shop.folder.path() / name / "log").string() + "'\n" + body + "\n");
   fs::permissions(program, fs::perms::owner_all);
   return program;
 }
 
 // Lets every word through but those of -fp-mode precise.
-constexpr const char* kForgetful = "for w; do shift; case $w in -fp-mode|precise) ;; *) set -- \"$@\" \"$w\";; esac; done; exec REAL \"$@\"";
+constexpr const char* kForgetful =
+    "for w; do shift; case $w in -fp-mode|precise) ;; *) set -- \"$@\" \"$w\";; esac; done; exec REAL \"$@\"";
 
 }  // namespace
 
@@ -48,7 +51,9 @@ TEST_CASE("SLANGC is honoured or refused with the reason") {
   fs::permissions(shop.folder.path() / "text", fs::perms::owner_all);
   CHECK(contains(refusal((shop.folder.path() / "text").string()), "cannot be run"));
   CHECK(contains(refusal(makeSlangc(shop, "forgetful", kForgetful).string()), "without NoContraction"));
-  CHECK(contains(refusal(makeSlangc(shop, "unoptimised", "echo \"error[E00100]: failed to load downstream compiler 'spirv-opt'\"; exit 255").string()),
+  CHECK(contains(refusal(makeSlangc(shop, "unoptimised",
+                                    "echo \"error[E00100]: failed to load downstream compiler 'spirv-opt'\"; exit 255")
+                             .string()),
                  "spirv-opt"));
 }
 

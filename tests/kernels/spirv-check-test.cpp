@@ -11,15 +11,20 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::vector<std::uint32_t> compile(const std::string& expression, const std::vector<std::string>& more = {"-fp-mode", "precise"}) {
+std::vector<std::uint32_t> compile(const std::string& expression,
+                                   const std::vector<std::string>& more = {"-fp-mode", "precise"}) {
   const Workshop shop;
   const fs::path source = shop.folder.path() / "planted.slang", module = shop.folder.path() / "planted.spv";
-  writeText(source, "RWStructuredBuffer<float> a;\n[shader(\"compute\")] [numthreads(1,1,1)]\nvoid go(uint3 g : SV_GroupID)\n{\n"
-                    "    const float x = a[g.x], y = a[g.x + 1], z = a[g.x + 2];\n    const float3 u = float3(x, y, z), v = float3(z, x, y);\n"
-                    "    a[g.x + 3] = " + expression + ";\n}\n");
+  writeText(
+      source,
+      "RWStructuredBuffer<float> a;\n[shader(\"compute\")] [numthreads(1,1,1)]\nvoid go(uint3 g : SV_GroupID)\n{\n"
+      "    const float x = a[g.x], y = a[g.x + 1], z = a[g.x + 2];\n    const float3 u = float3(x, y, z), v = "
+      "float3(z, x, y);\n"
+      "    a[g.x + 3] = " +
+          expression + ";\n}\n");
   static const std::string slangc = shop.open().slangc().path.string();
-  std::vector<std::string> arguments{slangc, source.string(), "-target", "spirv", "-O1", "-entry", "go", "-stage", "compute", "-o",
-                                     module.string()};
+  std::vector<std::string> arguments{slangc, source.string(), "-target", "spirv", "-O1",          "-entry",
+                                     "go",   "-stage",        "compute", "-o",    module.string()};
   arguments.insert(arguments.end(), more.begin(), more.end());
   const ProcessResult result = runProcess(arguments);
   INFO(result.output);
@@ -36,21 +41,25 @@ TEST_CASE("An exact module has no violations") {
 
 TEST_CASE("Planted violations are found by name") {
   const std::vector<std::pair<std::string, std::string>> planted = {
-      {"dot(u, v)", "OpDot"}, {"lerp(x, y, z)", "FMix"}, {"fma(x, y, z)", "Fma"}, {"round(x)", "Round"}, {"fmod(x, y)", "OpFRem"},
-      {"min(x, y)", "FMin"}, {"max(x, y)", "FMax"}, {"clamp(x, y, z)", "FClamp"}, {"rsqrt(x)", "InverseSqrt"}, {"pow(x, y)", "Pow"},
-      {"normalize(u).x", "Normalize"}, {"mul(float3x3(u, v, u), v).x", "Matrix"}};
+      {"dot(u, v)", "OpDot"}, {"lerp(x, y, z)", "FMix"},       {"fma(x, y, z)", "Fma"},
+      {"round(x)", "Round"},  {"fmod(x, y)", "OpFRem"},        {"min(x, y)", "FMin"},
+      {"max(x, y)", "FMax"},  {"clamp(x, y, z)", "FClamp"},    {"rsqrt(x)", "InverseSqrt"},
+      {"pow(x, y)", "Pow"},   {"normalize(u).x", "Normalize"}, {"mul(float3x3(u, v, u), v).x", "Matrix"}};
   std::string statements = "0";
-  for (std::size_t i = 0; i < planted.size(); ++i) statements += ";\n    a[g.x + " + std::to_string(i + 4) + "] = " + planted[i].first;
+  for (std::size_t i = 0; i < planted.size(); ++i)
+    statements += ";\n    a[g.x + " + std::to_string(i + 4) + "] = " + planted[i].first;
   const std::vector<std::string> violations = checkSpirv(compile(statements));
   CHECK(violations.size() >= planted.size());
   for (const auto& [expression, name] : planted) {
     INFO(expression);
-    CHECK(std::any_of(violations.begin(), violations.end(), [&](const std::string& line) { return line.find(name) != std::string::npos; }));
+    CHECK(std::any_of(violations.begin(), violations.end(),
+                      [&](const std::string& line) { return line.find(name) != std::string::npos; }));
   }
 }
 
 TEST_CASE("Each operation without NoContraction is found") {
-  for (const auto& [expression, name] : {std::pair{"x + y", "OpFAdd"}, {"x - y", "OpFSub"}, {"x * y", "OpFMul"}, {"x / y", "OpFDiv"}}) {
+  for (const auto& [expression, name] :
+       {std::pair{"x + y", "OpFAdd"}, {"x - y", "OpFSub"}, {"x * y", "OpFMul"}, {"x / y", "OpFDiv"}}) {
     const std::vector<std::string> violations = checkSpirv(compile(expression, {"-fp-mode", "fast"}));
     REQUIRE(violations.size() == 1);
     CHECK(contains(violations[0], std::string(name) + " without NoContraction"));
@@ -78,8 +87,12 @@ TEST_CASE("Decorating a module changes its annotations and nothing else") {
 TEST_CASE("The GLSL route is exact only by that repair") {
   const Workshop shop;
   const fs::path text = shop.folder.path() / "a.comp", module = shop.folder.path() / "a.spv";
-  writeText(text, "#version 450\nlayout(std430, binding = 0) buffer B { float a[]; };\nvoid main() { a[0] = a[1] * a[2] + a[3]; }\n");
-  REQUIRE(runProcess({findProgram("glslangValidator").string(), "-V", "-S", "comp", "-o", module.string(), text.string()}).ok());
+  writeText(text,
+            "#version 450\nlayout(std430, binding = 0) buffer B { float a[]; };\nvoid main() { a[0] = a[1] * a[2] + "
+            "a[3]; }\n");
+  REQUIRE(
+      runProcess({findProgram("glslangValidator").string(), "-V", "-S", "comp", "-o", module.string(), text.string()})
+          .ok());
   CHECK(checkSpirv(module).size() == 2);
   CHECK(checkSpirv(shop.open().get(scaleRequest(Route::kGlsl)).binary).empty());
 }
