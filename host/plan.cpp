@@ -43,13 +43,25 @@ std::array<Distance, 6> distances(const std::array<double, 4>& p, const std::arr
            {guardY * w + y, guardY * sw + sy}, {guardY * w - y, guardY * sw + sy}}};
 }
 
-/// Whether a vertex of the scene may lie outside a clip plane. The planes are half-spaces of object space, so the corners of the bounding
-/// box decide; float32 transform and distance round a handful of times, each by 2^-24 of the terms: 1e-5 of their sum is ample.
+/// Whether the contract's float32 arithmetic may find this point of object space outside a clip plane. Transform and distance round a handful
+/// of times, each by 2^-24 of the terms: 1e-5 of their sum is ample.
+bool mayBeOutside(const Matrix& m, const std::array<double, 3>& point, double guardX, double guardY) {
+  std::array<double, 4> p{}, size{};
+  for (int row = 0; row < 4; ++row) {
+    for (int i = 0; i < 3; ++i) {
+      const double term = m[4 * row + i] * point[i];
+      p[row] += term;
+      size[row] += std::abs(term);
+    }
+    p[row] += m[4 * row + 3];
+    size[row] += std::abs(m[4 * row + 3]);
+  }
+  return std::ranges::any_of(distances(p, size, guardX, guardY), [](const Distance& d) { return !(d.value > 1e-5 * d.size); });
+}
+
+/// Whether a vertex of the scene may lie outside a clip plane.
 bool mayCross(const Scene& scene) {
   const double guardX = 32767.0 / (scene.width * 0.5), guardY = 32767.0 / (scene.height * 0.5);
-  const auto outside = [&](const std::array<double, 4>& p, const std::array<double, 4>& size) {
-    return std::ranges::any_of(distances(p, size, guardX, guardY), [](const Distance& d) { return !(d.value > 1e-5 * d.size); });
-  };
   if (scene.positions.empty())
     return std::ranges::any_of(scene.clip, [&](const glm::vec4& c) {
       // Given, not computed: only the distance itself rounds, and 0 is inside.
@@ -59,21 +71,18 @@ bool mayCross(const Scene& scene) {
     });
   const Bounds bounds = boundsOf(scene.positions);
   if (bounds.empty) return false;
-  const Matrix& m = scene.clipFromObject;
-  for (int corner = 0; corner < 8; ++corner) {
-    std::array<double, 4> p{}, size{};
-    for (int row = 0; row < 4; ++row) {
-      for (int i = 0; i < 3; ++i) {
-        const double term = m[4 * row + i] * ((corner >> i) & 1 ? bounds.high[i] : bounds.low[i]);
-        p[row] += term;
-        size[row] += std::abs(term);
-      }
-      p[row] += m[4 * row + 3];
-      size[row] += std::abs(m[4 * row + 3]);
-    }
-    if (outside(p, size)) return true;
-  }
-  return false;
+  // The planes bound a convex part of object space: if it holds the corners of the box, it holds the scene. Else each vertex is looked at.
+  const auto corner = [&](int c) {
+    std::array<double, 3> p{};
+    for (int i = 0; i < 3; ++i) p[i] = (c >> i) & 1 ? bounds.high[i] : bounds.low[i];
+    return p;
+  };
+  bool boxInside = true;
+  for (int c = 0; c < 8; ++c) boxInside = boxInside && !mayBeOutside(scene.clipFromObject, corner(c), guardX, guardY);
+  return !boxInside && std::ranges::any_of(scene.positions, [&](const glm::vec3& p) {
+    const bool finite = std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+    return finite && mayBeOutside(scene.clipFromObject, {p.x, p.y, p.z}, guardX, guardY);
+  });
 }
 
 /// Whether every vertex that setup keeps has w = 1 exactly: 0 x is 0 for a finite x, and where x is not finite w is NaN.
