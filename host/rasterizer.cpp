@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <utility>
 
 #include "host/error.h"
+#include "host/lighting.h"
 #include "host/passes.h"
 #include "host/stages.h"
 
@@ -76,7 +76,9 @@ class FrameRun {
     passes_.set("guardY", 32767.0f / halfHeight);
     for (int row = 0; row < 4; ++row)
       for (int column = 0; column < 4; ++column) passes_.set(fmt::format("m{}{}", row, column), scene_.clipFromObject[4 * row + column]);
-    setLight();
+    const auto [light, eye] = lightingOf(scene_.clipFromObject);
+    for (const auto& [field, value] : {std::pair{"lightX", light[0]}, {"lightY", light[1]}, {"lightZ", light[2]}, {"eyeX", eye[0]}, {"eyeY", eye[1]}, {"eyeZ", eye[2]}, {"eyeW", eye[3]}})
+      passes_.set(field, value);
     if (frame_.plan.transform) {
       passes_.write("positions", scene_.positions);
       passes_.buffer("clipSpace", vertices * sizeof(glm::vec4));
@@ -88,22 +90,6 @@ class FrameRun {
     passes_.buffer("counters", 8 * kernelCounterCount());
     for (const char* field : {"triangleCount", "triangleBase", "extraCapacity", "itemCapacity", "extraCount", "itemCount", "entryCapacity", "queueCapacity", "entryBegin", "entryRange", "loadFrame", "commitPass", "scanCount", "scanTop"})
       passes_.set(field, 0u);
-  }
-
-  /// Towards the viewer, from above and a little from the left: the eye looks along the gradient of w, or of z where w is constant.
-  void setLight() {
-    const Matrix& m = scene_.clipFromObject;
-    const auto row = [&](int r, double sign) {
-      const double x = m[4 * r], y = m[4 * r + 1], z = m[4 * r + 2], length = std::sqrt(x * x + y * y + z * z);
-      return length > 0 && std::isfinite(length) ? std::array{sign * x / length, sign * y / length, sign * z / length} : std::array{0.0, 0.0, 0.0};
-    };
-    const bool perspective = m[12] != 0 || m[13] != 0 || m[14] != 0;
-    const auto forward = row(perspective ? 3 : 2, 1), right = row(0, 1), up = row(1, -1);
-    std::array<double, 3> light{};
-    for (int i = 0; i < 3; ++i) light[i] = -forward[i] + 0.55 * up[i] - 0.45 * right[i];
-    const double length = std::sqrt(light[0] * light[0] + light[1] * light[1] + light[2] * light[2]);
-    constexpr std::array names{"lightX", "lightY", "lightZ"};
-    for (int i = 0; i < 3; ++i) passes_.set(names[i], static_cast<float>(length > 0 ? light[i] / length : i == 2));
   }
 
   /// Bands of rows whose frame buffers fit the device, and whose blocks a lane of setup can walk within the device's loop limit:
