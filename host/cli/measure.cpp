@@ -47,4 +47,8 @@ Frame measure(Run& run, Rasterizer& rasterizer, KernelCache& kernels, unsigned r
   return first;
 }
 
+std::string frameLabel(const Run& run) {
+  return run.variant.get("shade", "none") == "none" ? "frame" : "frame without shade";
+}
+
 }  // namespace tessera::cli

@@ -21,4 +21,7 @@ Run beginRun(const Scene& scene, const Variant& variant, const Device& device, c
 Frame measure(Run& run, Rasterizer& rasterizer, KernelCache& kernels, unsigned repeat,
               const std::function<void(unsigned)>& progress = {});
 
+/// A table's name for the whole frame's time, which ends with the visibility buffer.
+std::string frameLabel(const Run& run);
+
 }  // namespace tessera::cli

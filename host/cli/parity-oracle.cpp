@@ -52,8 +52,12 @@ std::string firstStage(const Frame& good, const std::string& goodName, const Fra
     const auto word = [at](const std::vector<std::uint32_t>& values) {
       return at < values.size() ? fmt::format("0x{:08x}", values[at]) : std::string("nothing");
     };
-    return fmt::format("first stage that differs: {}, {} {}, word {}: {} on {}, {} on {}", output.stage, output.element,
-                       at / output.words, at % output.words, word(a), goodName, word(b), name);
+    const std::size_t comma =
+        output.element.find(", ");  // "vertex, clip x y z w": what one is, then what its words are
+    const std::string words = comma == std::string::npos ? "" : fmt::format(" ({})", output.element.substr(comma + 2));
+    return fmt::format("first stage that differs: {}, {} {}{}, word {}: {} on {}, {} on {}", output.stage,
+                       output.element.substr(0, comma), at / output.words, words, at % output.words, word(a), goodName,
+                       word(b), name);
   }
   return "no stage output differs: the images part after the last one, or the frames ran in several parts";
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "host/cli/measure.h"
 #include "host/cli/probe-text.h"
 #include "host/cli/table.h"
 
@@ -52,7 +53,7 @@ std::string timesTable(const std::vector<Outcome>& outcomes) {
       row->push_back(found == medians.end() ? "-" : milliseconds(found->second));
     }
   }
-  rows.push_back({"frame"});
+  rows.push_back({frameLabel(outcomes.front().run)});
   for (const auto& outcome : outcomes)
     rows.back().push_back(outcome.run.samples.empty() ? "-" : milliseconds(totalSpread(outcome.run.samples).median));
   return table(rows);

@@ -40,8 +40,9 @@ std::string summary(const RenderOptions& options, const Run& run, std::uint64_t 
   if (run.device.correctnessOnly) text += "a software driver: its times say nothing about a GPU\n";
   std::vector<std::vector<std::string>> rows{{"stage", "ms"}};
   for (const auto& [stage, median] : stageMedians(run.samples)) rows.push_back({stage, milliseconds(median)});
-  rows.push_back({fmt::format("frame ({} of {})", run.samples.size() > 1 ? "median" : "time", run.samples.size()),
-                  milliseconds(totalSpread(run.samples).median)});
+  rows.push_back(
+      {fmt::format("{} ({} of {})", frameLabel(run), run.samples.size() > 1 ? "median" : "time", run.samples.size()),
+       milliseconds(totalSpread(run.samples).median)});
   text += table(rows);
   for (const auto& output : options.outputs) text += fmt::format("wrote {}\n", output);
   return text;

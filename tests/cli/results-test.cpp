@@ -132,6 +132,29 @@ TEST_CASE("Parity says equal and leaves nothing behind") {
   }
 }
 
+TEST_CASE("Parity names the first stage that differs and leaves a replay") {
+  Desk desk;
+  // A transform that is right on the CPU alone. The program takes its kernels from this folder.
+  std::filesystem::copy(TESSERA_SOURCE_DIR "/slang", desk.path() / "slang", std::filesystem::copy_options::recursive);
+  std::string transform = desk.read("slang/rasterizer/transform.slang");
+  const std::string store = "clipSpace[v] = c;";
+  REQUIRE(transform.find(store) != std::string::npos);
+  transform.insert(transform.find(store), "\n#ifndef TESSERA_CPP\n c.x = c.x + 0.25f;\n#endif\n");
+  desk.write("slang/rasterizer/transform.slang", transform);
+
+  const auto outcome = desk.tessera("parity 'generate:icosphere?level=0' --size 64x64 --replay found.replay",
+                                    "TESSERA_SLANG_SOURCES=slang");
+  INFO(outcome.out << outcome.err);
+  CHECK(outcome.code == 5);
+  CHECK(outcome.out.find("parity: DIFFERENT; 1 of 3") != std::string::npos);
+  CHECK(outcome.out.find("first difference at pixel (") != std::string::npos);
+  CHECK(outcome.out.find("first stage that differs: transform, vertex 0 (clip x y z w), word 0: 0x") !=
+        std::string::npos);
+  CHECK(desk.names() == Names{"found.replay", "slang"});
+  // With the kernels as they are, the replay is equal: it holds the scene and not what went wrong.
+  CHECK(desk.tessera("parity found.replay").code == 0);
+}
+
 TEST_CASE("Plan and variants and devices print what they promise") {
   Desk desk;
   const auto plan = desk.tessera("plan 'generate:icosphere?level=2' --json");
