@@ -18,6 +18,7 @@ constexpr std::uint64_t kCornerBytes = 16, kPieceBytes = 40, kItemBytes = 8;   /
 constexpr std::uint32_t kBlock = 64;                        // pixels; bands begin on a row of blocks, and so of cells and tiles
 constexpr std::uint32_t kScanBlock = 1024;                  // slang/rasterizer/scan.slang: kBlock
 constexpr std::uint32_t kClippedPieces = 26;                // slang/rasterizer/clip.slang: kMaxCorners - 2
+constexpr std::uint64_t kSetupLoops = 1024;                 // iterations of a lane of setup beside its walks over blocks: at most 28 corners at six planes, 78 projected
 
 std::uint64_t ceilDivide(std::uint64_t a, std::uint64_t b) { return (a + b - 1) / b; }
 
@@ -58,6 +59,8 @@ class FrameRun {
  private:
   std::string value(std::string_view axis) const { return frame_.plan.resolved.get(axis); }
   std::uint64_t pixels() const { return std::uint64_t{scene_.width} * (band_.end - band_.begin); }
+  /// Iterations that a lane has left beside `fixed` ones.
+  std::uint64_t loopsBeyond(std::uint64_t fixed) const { return info_.maxLoopIterations > fixed ? info_.maxLoopIterations - fixed : 0; }
   bool fits(std::uint64_t bytes) const { return bytes <= info_.maxBufferBytes; }
 
   // ---- what does not depend on the band
@@ -98,7 +101,9 @@ class FrameRun {
     const std::uint64_t pixelBytes = value("shade") != "none" ? 12 : commit_ == "depth32+id32" ? 8 : 4;
     const std::uint64_t blocksAcross = ceilDivide(scene_.width, kBlock);
     const std::uint64_t byBytes = info_.maxBufferBytes / (pixelBytes * scene_.width * kBlock);
-    const std::uint64_t byLoops = info_.maxLoopIterations / (2 * (frame_.plan.clip ? kClippedPieces : 1) * blocksAcross);
+    // Each loop's last test counts as an iteration; what is clipped and what is not follow one another in one subgroup.
+    const std::uint64_t walks = 2 * (frame_.plan.clip ? kClippedPieces + 1 : 1);
+    const std::uint64_t byLoops = loopsBeyond(kSetupLoops) / (walks * (blocksAcross + 2));
     const std::uint64_t rows = std::min<std::uint64_t>(std::max<std::uint64_t>(std::min(byBytes, byLoops), 1) * kBlock, scene_.height);
     std::vector<Band> bands;
     for (std::uint64_t begin = 0; begin < scene_.height; begin += rows)
@@ -301,10 +306,11 @@ class FrameRun {
       passes_.overElements("raster-items", work_);
       return;
     }
-    // Iterations of a lane: the tile's cells in and out, and for each entry its cells, their rows and the pixel loop of each.
+    // Iterations of a lane: three walks over the tile's cells with the loop over lanes of each, to clear, load and store; and for each entry its
+    // rows, their cells, and the lanes of each. A loop of n takes n + 1: lavapipe counts its last test, too.
     const std::uint64_t across = tile_ / 8, cells = across * across;
-    const std::uint64_t each = 2 * cells + across + 2, fixed = 4 * cells + 16;
-    const std::uint64_t range = std::max<std::uint64_t>((info_.maxLoopIterations - fixed) / each, 1);
+    const std::uint64_t each = 3 * cells + 2 * across + 2, fixed = 9 * cells + 16;
+    const std::uint64_t range = std::max<std::uint64_t>(loopsBeyond(fixed) / each, 1);
     passes_.set("entryRange", static_cast<std::uint32_t>(std::min<std::uint64_t>(range, 0x7fffffff)));
     const bool owned = commit_ == "tile-owned";
     for (std::uint64_t begin = 0; begin == 0 || begin < largestBin_; begin += range) {
