@@ -153,7 +153,9 @@ class Planner {
     const bool atomic = commit == "depth32+id32" || commit == "two-pass";
     const std::string binning = choose("binning", atomic ? "none" : "exact");
     binned_ = binning != "none";
-    const int tile = std::stoi(choose("tile", "64"));
+    int largest = 64;
+    while (largest > 8 && tileOwnedBytes(largest) > device_.maxGroupBytes) largest /= 2;
+    const int tile = std::stoi(choose("tile", std::to_string(largest)));
     const double tiles = std::ceil(double(scene_.width) / tile) * std::ceil(double(scene_.height) / tile);
     const double mean = 4.0 * double(scene_.triangles.size()) / tiles;
     choose("capacity", std::to_string(std::bit_ceil(static_cast<unsigned>(std::clamp(mean, 16.0, 32768.0)))));
@@ -169,7 +171,7 @@ class Planner {
       failUsage("commit=tile-owned: needs bins, and binning=none has none; set binning=exact or queue, or commit=depth32+id32 or two-pass");
     if (value == "depth32+id32" && !atomics64)
       failUnsupported(fmt::format("commit=depth32+id32: {} has no 64-bit atomic min on buffers (shaderBufferInt64Atomics); set commit=two-pass", device_.name));
-    const std::uint64_t groupMemory = tileOwnedBytes();
+    const std::uint64_t groupMemory = tileOwnedBytes(std::stoul(plan_.resolved.get("tile")));
     if (value == "tile-owned" && groupMemory > device_.maxGroupBytes)
       failUnsupported(fmt::format("tile={}: tile-owned takes {} bytes of group memory, {} has {}; set a smaller tile", plan_.resolved.get("tile"),
                                   groupMemory, device_.name, device_.maxGroupBytes));
@@ -179,10 +181,8 @@ class Planner {
     note("resolve", value == "depth32+id32", value == "depth32+id32" ? "packed words become depth and ids" : "depth and ids are written as they are");
   }
 
-  std::uint64_t tileOwnedBytes() const {
-    const std::uint64_t tile = std::stoul(plan_.resolved.get("tile"));
-    return tile * tile * 8;
-  }
+  /// Depth and id of each pixel.
+  static std::uint64_t tileOwnedBytes(std::uint64_t tile) { return tile * tile * 8; }
 
   void shading() {
     const std::string shade = choose("shade", "none");

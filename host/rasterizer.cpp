@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <optional>
 #include <utility>
 
 #include "host/error.h"
@@ -140,7 +141,8 @@ class FrameRun {
         if (pass == 0 || batches_.size() > 1)
           if (!prepareBatch(only && pass == 0 && batches_.size() == 1)) return false;
         raster(b == 0);
-        if (pass + 1 == commitPasses) countBatch();
+        const bool last = pass + 1 == commitPasses;
+        if (last || batches_.size() > 1) countBatch(last);   // else the counters go on over the passes
       }
     if (commit_ == "depth32+id32") passes_.overElements("resolve", pixels());
     device_.finish();
@@ -260,7 +262,7 @@ class FrameRun {
     scanTileCounts();
     const std::uint64_t total = passes_.read<std::uint32_t>("offsets", 1, tiles())[0];
     if (!fits(total * 4)) return false;
-    counted_["binned"] += total;
+    binned_ = total;
     largestBin_ = count(readCounters(), "largestBin");
     passes_.set("queueCapacity", 0u);
     insert(total);
@@ -283,7 +285,7 @@ class FrameRun {
 
   bool binQueue() {
     const std::uint64_t capacity = std::stoul(value("capacity"));
-    if (!fits(tiles() * capacity * 4))
+    if (!fits(tiles() * capacity * 4) || tiles() * capacity > 0xffffffff)   // kernels have 32 bits for the place of an entry
       failUnsupported(fmt::format("capacity={}: {} tiles of it take {} bytes, the largest buffer of {} holds {}; set a smaller capacity or a larger tile",
                                   capacity, tiles(), tiles() * capacity * 4, info_.name, info_.maxBufferBytes));
     passes_.buffer("tileCounts", tiles() * 4);
@@ -291,7 +293,10 @@ class FrameRun {
     insert(tiles() * capacity);
     largestBin_ = capacity;
     const std::uint64_t overflowed = count(readCounters(), "overflowed");
-    if (overflowed == 0 || value("overflow") == "drop") return true;
+    if (overflowed == 0 || value("overflow") == "drop") {
+      binned_.reset();
+      return true;
+    }
     if (value("overflow") == "error")
       throw Error(ExitCode::kOverflow, fmt::format("capacity={}: {} bin entries did not fit; set overflow=retry or a larger capacity", capacity, overflowed));
     ++counted_["retries"];
@@ -322,19 +327,35 @@ class FrameRun {
 
   // ---- what comes back
 
-  void countBatch() {
+  /// Setup and bins run again for the second pass of several batches: only what raster did counts in both.
+  void countBatch(bool all) {
     const auto words = readCounters();
-    for (const CounterDoc& doc : counterDocs())
-      if (doc.inKernels) {
-        auto& sum = counted_[doc.name];
-        const std::uint64_t value = count(words, doc.name);
-        sum = doc.name == "largestBin" ? std::max(sum, value) : sum + value;
+    for (const CounterDoc& doc : counterDocs()) {
+      const bool work = doc.name == "tests" || doc.name == "covered" || doc.name == "atomics";
+      if (!doc.inKernels || !(all || work)) continue;
+      auto& sum = counted_[doc.name];
+      const std::uint64_t value = count(words, doc.name);
+      sum = doc.name == "largestBin" ? std::max(sum, value) : sum + value;
+    }
+    if (all && binning_ != "none") countBins();
+  }
+
+  /// Queues that did not run again have had no scan to count their entries.
+  void countBins() {
+    if (!binned_) {
+      binned_ = 0;
+      for (const std::uint32_t entries : passes_.read<std::uint32_t>("tileCounts", tiles())) {
+        const std::uint64_t held = std::min<std::uint64_t>(entries, passes_.get("queueCapacity"));
+        *binned_ += held;
+        counted_["largestBin"] = std::max(counted_["largestBin"], held);
       }
+    }
+    counted_["binned"] += *binned_;
   }
 
   /// Causes that belong to a triangle, whatever the band, count once.
   void addCounts() {
-    constexpr std::array<std::string_view, 6> once{"badIndex", "nonFinite", "clipped", "outside", "behind", "zeroArea"};
+    constexpr std::array<std::string_view, 8> once{"badIndex", "nonFinite", "clipped", "outside", "behind", "zeroArea", "facing", "betweenSamples"};
     counted_["batches"] = batches_.size();
     for (const auto& [name, value] : counted_) {
       auto& sum = frame_.counters[name];
@@ -415,6 +436,7 @@ class FrameRun {
   std::vector<Batch> batches_;
   std::uint64_t work_ = 0;          // lanes of binning and of raster by items
   std::uint64_t largestBin_ = 0;    // entries of the fullest tile, or a bound on it
+  std::optional<std::uint64_t> binned_;   // of the batch; empty: in queues, not counted yet
   Counters counted_;                // of the band
   std::vector<StageTime> times_;    // of the band, shading apart
 };

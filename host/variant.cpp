@@ -61,7 +61,7 @@ std::vector<Axis> makeAxes() {
        0, 0, "exact; none where commit is an atomic one"},
       {"tile", "edge of a tile, pixels", "", {"bin-count", "bin-insert", "raster-tiles"},
        {{"8", "one cell", tileSize(3)}, {"16", "2 x 2 cells", tileSize(4)}, {"32", "4 x 4 cells", tileSize(5)}, {"64", "8 x 8 cells", tileSize(6)}},
-       0, 0, "64"},
+       0, 0, "64, or the largest that a device's group memory holds"},
       {"capacity", "entries that a queue starts with", "", {}, {}, 16, 65536, "a power of two, four times the mean number of triangles a tile"},
       {"overflow", "what happens when a queue overflows", "", {},
        {{"retry", "bins run again at the counted sizes", ""},
