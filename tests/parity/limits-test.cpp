@@ -28,6 +28,18 @@ PLACE_TEST_CASE("Nothing of 500000 triangles in one block is lost", "[limits]") 
   }
 }
 
+PLACE_TEST_CASE("Thousands of triangles over whole tiles are all tested", "[limits]") {
+  // More cells in one tile than a lane may loop over on a device that bounds its loops; the nearest layer comes last.
+  const Scene scene = loadInput("generate:layers?count=1500&order=far-to-near", 64, 64);
+  const reference::Result oracle = reference::render(scene);
+  for (const Variant& variant : combinations({"tile", "commit"}, machine.info())) {
+    INFO(variant.text());
+    CHECK(difference(machine.render(scene, variant), oracle) == "");
+  }
+  const Variant hits{{"commit", "count"}, {"binning", "exact"}};
+  CHECK(difference(machine.render(scene, hits), oracle) == "");
+}
+
 PLACE_TEST_CASE("A triangle covers the whole of 4096 x 4096 on each path", "[limits]") {
   Scene scene;
   scene.width = scene.height = 4096;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "datasets/input.h"
+#include "host/lighting.h"
 #include "tests/support/compare.h"
 #include "tests/support/machines.h"
 
@@ -76,27 +77,23 @@ PLACE_TEST_CASE("An empty pixel is white and ids tell neighbours apart", "[shadi
 PLACE_TEST_CASE("Smooth normals are perspective-correct", "[shading]") {
   const Scene scene = nearTorus();
   const Framebuffer image = machine.render(scene, {{"shade", "smooth"}}).image;
-  const auto cosineAt = [&](std::size_t k) { return (image.colour[k].x / 0.62 - 0.06) / 0.94; };
-  // The light of rasterizer.cpp, from the matrix: towards the viewer, from above and a little from the left.
-  const Matrix& m = scene.clipFromObject;
-  const auto row = [&](int r, double sign) {
-    const double length = std::hypot(m[4 * r], m[4 * r + 1], m[4 * r + 2]);
-    return std::array{sign * m[4 * r] / length, sign * m[4 * r + 1] / length, sign * m[4 * r + 2] / length};
-  };
-  const auto forward = row(3, 1), right = row(0, 1), up = row(1, -1);
-  std::array<double, 3> light{};
-  for (int i = 0; i < 3; ++i) light[i] = -forward[i] + 0.55 * up[i] - 0.45 * right[i];
-  const double length = std::hypot(light[0], light[1], light[2]);
-  std::size_t checked = 0;
-  double worst = 0;
+  const auto [light, eye] = lightingOf(scene.clipFromObject);
+  std::size_t checked = 0, off = 0;
   for (std::size_t k = 0; k < image.pixels(); ++k) {
     if (image.ids[k] == kNoTriangle) continue;
-    const auto n = smoothNormal(scene, scene.triangles[image.ids[k]], double(k % image.width) + 0.5, double(k / image.width) + 0.5);
-    const double expected = std::abs(n[0] * light[0] + n[1] * light[1] + n[2] * light[2]) / (std::hypot(n[0], n[1], n[2]) * length);
+    const Triangle& t = scene.triangles[image.ids[k]];
+    const auto n = smoothNormal(scene, t, double(k % image.width) + 0.5, double(k / image.width) + 0.5);
+    const glm::vec3 at = scene.positions[t[0]];
+    const double toEye[] = {eye[0] - double(eye[3]) * at.x, eye[1] - double(eye[3]) * at.y, eye[2] - double(eye[3]) * at.z};
+    const double size = std::hypot(n[0], n[1], n[2]);
+    const double facing = (n[0] * toEye[0] + n[1] * toEye[1] + n[2] * toEye[2]) / (size * std::hypot(toEye[0], toEye[1], toEye[2]));
+    const double lit = (n[0] * light[0] + n[1] * light[1] + n[2] * light[2]) / size * (facing < 0 ? -1 : 1);
+    const double expected = 0.04 + 0.26 * std::abs(facing) + 0.7 * std::max(lit, 0.0);   // slang/rasterizer/shade.slang: lambert
     ++checked;
-    worst = std::max(worst, std::abs(cosineAt(k) - expected));
+    off += std::abs(image.colour[k].x / 0.62 - expected) > 0.001;
   }
   CHECK(checked > 4000);
-  // A pixel whose centre lies off its triangle by the snapping takes a weight of 0 for a slightly negative one.
-  CHECK(worst < 0.02);
+  // A pixel whose centre lies off its triangle by the snapping has a weight of 0 for a slightly negative one; and where the eye sees
+  // the surface edge on, the side that is lit is a matter of rounding.
+  CHECK(off < checked / 50);
 }
