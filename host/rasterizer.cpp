@@ -16,6 +16,7 @@ namespace tessera {
 namespace {
 
 constexpr std::uint64_t kCornerBytes = 16, kPieceBytes = 40, kItemBytes = 8;   // slang/layout.slang: Corner, Piece, Item
+constexpr std::uint64_t kMaxWord = 0xffffffff;              // kernels index with 32 bits
 constexpr std::uint32_t kBlock = 64;                        // pixels; bands begin on a row of blocks, and so of cells and tiles
 constexpr std::uint32_t kScanBlock = 1024;                  // slang/rasterizer/scan.slang: kBlock
 constexpr std::uint32_t kClippedPieces = 26;                // slang/rasterizer/clip.slang: kMaxCorners - 2
@@ -209,7 +210,7 @@ class FrameRun {
     std::uint64_t extras = frame_.plan.clip ? std::max<std::uint64_t>(1024, triangles / 16) : 0;
     std::uint64_t items = std::max<std::uint64_t>(4096, triangles / 16);
     for (;;) {
-      if (!fits((triangles + extras) * kPieceBytes) || !fits(items * kItemBytes)) return false;
+      if (!fits((triangles + extras) * kPieceBytes) || !fits(items * kItemBytes) || triangles + extras + items > kMaxWord) return false;
       passes_.buffer("pieces", (triangles + extras) * kPieceBytes);
       passes_.buffer("items", items * kItemBytes);
       passes_.set("extraCapacity", static_cast<std::uint32_t>(extras));
@@ -260,13 +261,22 @@ class FrameRun {
   /// Bins at the sizes that tileCounts holds.
   bool insertCounted() {
     scanTileCounts();
+    largestBin_ = count(readCounters(), "largestBin");
+    if (!entriesFitWord()) return false;
     const std::uint64_t total = passes_.read<std::uint32_t>("offsets", 1, tiles())[0];
     if (!fits(total * 4)) return false;
     binned_ = total;
-    largestBin_ = count(readCounters(), "largestBin");
     passes_.set("queueCapacity", 0u);
     insert(total);
     return true;
+  }
+
+  /// Offsets have 32 bits. Only where the bound is past them are the counts themselves added up.
+  bool entriesFitWord() {
+    if (largestBin_ * tiles() <= kMaxWord) return true;
+    std::uint64_t sum = 0;
+    for (const std::uint32_t entries : passes_.read<std::uint32_t>("tileCounts", tiles())) sum += entries;
+    return sum <= kMaxWord;
   }
 
   void insert(std::uint64_t entries) {
@@ -285,7 +295,7 @@ class FrameRun {
 
   bool binQueue() {
     const std::uint64_t capacity = std::stoul(value("capacity"));
-    if (!fits(tiles() * capacity * 4) || tiles() * capacity > 0xffffffff)   // kernels have 32 bits for the place of an entry
+    if (!fits(tiles() * capacity * 4) || tiles() * capacity > kMaxWord)   // kernels have 32 bits for the place of an entry
       failUnsupported(fmt::format("capacity={}: {} tiles of it take {} bytes, the largest buffer of {} holds {}; set a smaller capacity or a larger tile",
                                   capacity, tiles(), tiles() * capacity * 4, info_.name, info_.maxBufferBytes));
     passes_.buffer("tileCounts", tiles() * 4);

@@ -31,9 +31,9 @@ std::vector<Axis> makeAxes() {
   const std::vector<std::string> setup{"setup"}, vertex{"transform", "project", "setup"}, bin{"bin-count", "bin-insert"}, raster{"raster-tiles", "raster-items"};
   return {
       {"route", "how the kernels reach the machine", "Slang user guide, chapter on targets", {},
-       {{"cpp", "Slang to C++, on the CPU device", "", kImage},
-        {"spirv", "Slang to SPIR-V, on a Vulkan device", "", kImage},
-        {"glsl", "Slang to GLSL to glslang to SPIR-V, on a Vulkan device", "", kImage}},
+       {{"cpp", "Slang to C++, on the CPU device", ""},
+        {"spirv", "Slang to SPIR-V, on a Vulkan device", ""},
+        {"glsl", "Slang to GLSL to glslang to SPIR-V, on a Vulkan device", ""}},
        0, 0, "cpp on the CPU device, spirv on a Vulkan device"},
       {"plan", "whether the planner leaves out what a scene does not need", "", {},
        {{"planned", "what the scene does not need is left out", ""}, {"full", "every stage and test runs", ""}},
