@@ -1,6 +1,7 @@
 #include "variants.h"
 
 #include <algorithm>
+#include <set>
 
 #include "host/error.h"
 
@@ -16,12 +17,12 @@ bool isRead(const std::string& axis, const Variant& variant) {
   return std::ranges::all_of(kConditions, [&](const Condition& c) { return axis != c.axis || variant.get(c.on) == c.value; });
 }
 
-bool accepted(const Variant& variant, const DeviceInfo& device) {
+/// What the planner makes of a variant on an empty scene; "" where it refuses it.
+std::string resolved(const Variant& variant, const DeviceInfo& device) {
   try {
-    makePlan(Scene{}, variant, device);
-    return true;
+    return makePlan(Scene{}, variant, device).resolved.text();
   } catch (const Error&) {
-    return false;
+    return "";
   }
 }
 
@@ -39,8 +40,8 @@ std::vector<std::string> losslessValues(const Axis& axis) {
 std::vector<std::string> implementationAxes() {
   std::vector<std::string> names;
   for (const Axis& axis : axes()) {
-    const bool planners = axis.name == "clip" || axis.name == "projection", output = axis.name == "counters";
-    if (!planners && !output && losslessValues(axis).size() > 1) names.push_back(axis.name);
+    const bool planners = axis.name == "clip" || axis.name == "projection", places = axis.name == "route", output = axis.name == "counters";
+    if (!planners && !places && !output && losslessValues(axis).size() > 1) names.push_back(axis.name);
   }
   return names;
 }
@@ -56,7 +57,7 @@ std::vector<Variant> combinations(const std::vector<std::string>& names, const D
       }
     all = std::move(next);
   }
-  std::erase_if(all, [&](const Variant& v) { return !accepted(v, device); });
+  std::erase_if(all, [&](const Variant& v) { return resolved(v, device).empty(); });
   return all;
 }
 
@@ -72,16 +73,16 @@ std::vector<Variant> rasterPaths(const DeviceInfo& device) {
 
 std::vector<Variant> eachAlone(const Variant& base, const DeviceInfo& device) {
   std::vector<Variant> all;
+  std::set<std::string> seen{""};
+  const auto add = [&](const Variant& variant) {
+    if (seen.insert(resolved(variant, device)).second) all.push_back(variant);
+  };
   for (const Variant& binning : combinations({"binning"}, device)) {
-    all.push_back(joined(base, binning));
-    for (const std::string& name : implementationAxes()) {
-      if (base.has(name) || name == "binning" || !isRead(name, binning)) continue;
-      for (const std::string& value : losslessValues(axis(name))) {
-        if (value.empty()) continue;
-        Variant variant = joined(joined(base, binning), {{name, value}});
-        if (accepted(variant, device)) all.push_back(std::move(variant));
-      }
-    }
+    const Variant path = joined(base, binning);
+    add(path);
+    for (const std::string& name : implementationAxes())
+      for (const std::string& value : losslessValues(axis(name)))
+        if (!path.has(name) && isRead(name, binning) && !value.empty()) add(joined(path, {{name, value}}));
   }
   return all;
 }
