@@ -1,7 +1,8 @@
 // Triangles that cannot be drawn, among others that can.
+#include <fmt/format.h>
+
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <fmt/format.h>
 #include <limits>
 
 #include "datasets/input.h"
@@ -33,7 +34,8 @@ std::vector<Variant> paths(const DeviceInfo& device) {
   return all;
 }
 
-/// Renders the good scene with `bad` added behind its last triangle: the image is the good one's, `bad.size()` drops are counted as `counter`.
+/// Renders the good scene with `bad` added behind its last triangle: the image is the good one's, `bad.size()` drops
+/// are counted as `counter`.
 void checkDropped(Machine& machine, const std::vector<std::array<glm::vec4, 3>>& bad, const char* counter) {
   const Scene good = goodScene();
   Scene scene = good;
@@ -60,7 +62,8 @@ CHECKED_PLACE_TEST_CASE("Indices out of range are dropped and counted", "[extrem
   const auto vertices = static_cast<std::uint32_t>(good.clip.size());
   Scene scene = good;
   std::uint64_t bad = 0;
-  for (const std::uint32_t index : {vertices, vertices + 1, 0x3fffffffu, 0x7fffffffu, 0x80000000u, 0xfffffffeu, 0xffffffffu})
+  for (const std::uint32_t index :
+       {vertices, vertices + 1, 0x3fffffffu, 0x7fffffffu, 0x80000000u, 0xfffffffeu, 0xffffffffu})
     for (std::size_t corner = 0; corner < 3; ++corner, ++bad) {
       Triangle t{1, 2, 3};
       t[corner] = index;
@@ -91,7 +94,13 @@ CHECKED_PLACE_TEST_CASE("Vertices that are not finite are dropped and counted", 
 CHECKED_PLACE_TEST_CASE("Triangles without area are dropped and counted", "[extremes]") {
   const glm::vec4 a(-0.9f, -0.8f, 0, 1), b(0.9f, 0.8f, 0, 1), middle(0, 0, 0, 1), near(-0.9f + 1e-6f, -0.8f, 0, 1);
   checkDropped(machine,
-               {{a, middle, b}, {a, a, b}, {a, b, a}, {b, a, a}, {a, a, a}, {a, near, b}, {a * 2.0f, a, b},
+               {{a, middle, b},
+                {a, a, b},
+                {a, b, a},
+                {b, a, a},
+                {a, a, a},
+                {a, near, b},
+                {a * 2.0f, a, b},
                 {glm::vec4(0, 0, 0, 1), glm::vec4(0.5f, 0, 0, 1), glm::vec4(1, 0, 0, 1)}},
                "zeroArea");
   Scene scene = goodScene();
@@ -107,7 +116,8 @@ CHECKED_PLACE_TEST_CASE("Triangles without area are dropped and counted", "[extr
 CHECKED_PLACE_TEST_CASE("Triangles that are nowhere in front of the eye are dropped and counted", "[extremes]") {
   std::vector<std::array<glm::vec4, 3>> bad;
   for (const float w : {-1.0f, -1e-30f, -kLargest / 4})
-    for (const float z : {0.5f, -0.5f, 0.0f}) bad.push_back({glm::vec4(w, -w, z, w), glm::vec4(-w, w, z, w), glm::vec4(w, w, z * 2, w)});
+    for (const float z : {0.5f, -0.5f, 0.0f})
+      bad.push_back({glm::vec4(w, -w, z, w), glm::vec4(-w, w, z, w), glm::vec4(w, w, z * 2, w)});
   bad.push_back({glm::vec4(1, 0, 1, 0), glm::vec4(0, 1, 1, 0), glm::vec4(1, 1, 1, 0)});
   checkDropped(machine, bad, "outside");
   // w of 0 and no coordinate outside of a plane: nothing is clipped away, but nothing can be projected.
@@ -139,7 +149,7 @@ CHECKED_PLACE_TEST_CASE("Object space that is not finite is dropped and counted"
   Scene scene = loadInput("generate:icosphere?level=3", 200, 150);
   scene.positions[3].x = kNaN;
   scene.positions[40].y = kInfinity;
-  scene.positions[90].z = -kLargest;   // the matrix takes it beyond float32
+  scene.positions[90].z = -kLargest;  // the matrix takes it beyond float32
   scene.clipFromObject[10] *= 4;
   const reference::Result oracle = reference::render(scene);
   CHECK(oracle.counts.nonFinite > 10);

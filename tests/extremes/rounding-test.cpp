@@ -16,7 +16,8 @@ constexpr std::uint64_t kScenes = 60;
 constexpr std::size_t kTriangles = 200;
 
 /// Triangles whose coordinates are of wildly different magnitudes; `exponent` draws one.
-template <typename Exponent> Scene scaledScene(std::uint64_t seed, Exponent exponent) {
+template <typename Exponent>
+Scene scaledScene(std::uint64_t seed, Exponent exponent) {
   Random random(seed);
   Scene scene;
   scene.width = 1u << random.bits() % 8;
@@ -35,7 +36,8 @@ template <typename Exponent> Scene scaledScene(std::uint64_t seed, Exponent expo
   return scene;
 }
 
-template <typename Exponent> void checkScaled(Machine& machine, Exponent exponent) {
+template <typename Exponent>
+void checkScaled(Machine& machine, Exponent exponent) {
   const auto variants = combinations({"plan", "binning"}, machine.info());
   std::uint64_t clipped = 0, covered = 0;
   for (std::uint64_t seed = 0; seed < kScenes; ++seed) {
@@ -72,8 +74,9 @@ CHECKED_PLACE_TEST_CASE("Denormal coordinates", "[rounding]") {
 }
 
 CHECKED_PLACE_TEST_CASE("Polygons that rounding bends keep all their corners", "[rounding]") {
-  // Seeded search with the oracle's clipper. Corners of triangles lie on corners of the clip volume but for the last bits, at w of many
-  // magnitudes; of one in 4,000 clipping leaves ten corners, one more than there are planes and corners.
+  // Seeded search with the oracle's clipper. Corners of triangles lie on corners of the clip volume but for the last
+  // bits, at w of many magnitudes; of one in 4,000 clipping leaves ten corners, one more than there are planes and
+  // corners.
   Scene scene;
   scene.width = scene.height = 64;
   const float guard = 32767.0f / 32;

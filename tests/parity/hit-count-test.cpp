@@ -1,7 +1,8 @@
 // Watertight: a sample inside a closed mesh is hit exactly once, on each path.
+#include <fmt/format.h>
+
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <fmt/format.h>
 #include <functional>
 
 #include "datasets/input.h"
@@ -14,7 +15,9 @@ using namespace tessera;
 namespace {
 
 /// Whether a sample lies inside the mesh and at least a pixel from its border; at least a pixel outside of it.
-struct Region { std::function<bool(double x, double y)> inside, outside; };
+struct Region {
+  std::function<bool(double x, double y)> inside, outside;
+};
 
 void checkHits(Machine& machine, const Scene& scene, const Region& region, const std::vector<Variant>& paths) {
   const reference::Result oracle = reference::render(scene);
@@ -53,9 +56,13 @@ PLACE_TEST_CASE("A closed fan of 100000 triangles is hit once", "[hits]") {
   const Scene scene = loadInput("generate:fan?count=100000", 512, 512);
   const double radius = 0.95 * 256;
   const auto distance = [](double x, double y) { return std::hypot(x - 256, y - 256); };
-  // The fan's rim is a polygon of 100,000 corners, which leaves its circle by less than a millionth of a pixel; its corners are snapped.
-  checkHits(machine, scene, {[&](double x, double y) { return distance(x, y) < radius - 1; }, [&](double x, double y) { return distance(x, y) > radius + 1; }},
-            machine.info().correctnessOnly ? binnings(machine) : allPaths(machine));   // seconds each on a software driver
+  // The fan's rim is a polygon of 100,000 corners, which leaves its circle by less than a millionth of a pixel; its
+  // corners are snapped.
+  checkHits(
+      machine, scene,
+      {[&](double x, double y) { return distance(x, y) < radius - 1; },
+       [&](double x, double y) { return distance(x, y) > radius + 1; }},
+      machine.info().correctnessOnly ? binnings(machine) : allPaths(machine));  // seconds each on a software driver
 }
 
 PLACE_TEST_CASE("A turned grid is hit once", "[hits]") {
@@ -66,13 +73,16 @@ PLACE_TEST_CASE("A turned grid is hit once", "[hits]") {
     const double dx = x - 256, dy = y - 256;
     return std::max(std::abs(dx * c + dy * s), std::abs(dy * c - dx * s));
   };
-  checkHits(machine, scene, {[&](double x, double y) { return fromCentre(x, y) < half - 1; }, [&](double x, double y) { return fromCentre(x, y) > half + 1; }},
+  checkHits(machine, scene,
+            {[&](double x, double y) { return fromCentre(x, y) < half - 1; },
+             [&](double x, double y) { return fromCentre(x, y) > half + 1; }},
             allPaths(machine));
 }
 
 PLACE_TEST_CASE("A clipped pair that shares an edge is hit once", "[hits]") {
-  // A ground from behind the eye to w = 20: y = 1.3 at any distance, so that the screen shows it below y = 1.3 / 20. Its diagonal crosses the
-  // near plane, and in the second case the guard band on both sides: at w = 1 it is 3000 screens wide.
+  // A ground from behind the eye to w = 20: y = 1.3 at any distance, so that the screen shows it below y = 1.3 / 20.
+  // Its diagonal crosses the near plane, and in the second case the guard band on both sides: at w = 1 it is 3000
+  // screens wide.
   for (const float side : {40.0f, 3000.0f}) {
     Scene scene;
     scene.name = fmt::format("ground {} wide", 2 * side);
@@ -81,7 +91,8 @@ PLACE_TEST_CASE("A clipped pair that shares an edge is hit once", "[hits]") {
       for (const float x : {-side, side}) scene.clip.emplace_back(x, 1.3f, (w - 1.01f) * 1.01f, w);
     scene.triangles = {{0, 1, 2}, {3, 2, 1}};
     const double horizon = 256 + 256 * 1.3 / 20;
-    checkHits(machine, scene, {[&](double, double y) { return y > horizon + 1; }, [&](double, double y) { return y < horizon - 1; }},
+    checkHits(machine, scene,
+              {[&](double, double y) { return y > horizon + 1; }, [&](double, double y) { return y < horizon - 1; }},
               allPaths(machine));
   }
 }

@@ -1,18 +1,22 @@
 // Real and generated meshes against the oracle, from one pixel to 16 million.
-#include <catch2/catch.hpp>
+#include "tests/support/meshes.h"
+
 #include <fmt/format.h>
+
+#include <catch2/catch.hpp>
 
 #include "datasets/generators.h"
 #include "datasets/input.h"
 #include "tests/support/compare.h"
 #include "tests/support/machines.h"
-#include "tests/support/meshes.h"
 
 using namespace tessera;
 
 namespace {
 
-struct Size { std::uint32_t width, height; };
+struct Size {
+  std::uint32_t width, height;
+};
 
 void checkAt(Machine& machine, const std::string& input, Size size, const Variant& variant = {}) {
   INFO(fmt::format("{}, {} x {}, {}", input, size.width, size.height, variant.text()));
@@ -24,7 +28,8 @@ void checkAt(Machine& machine, const std::string& input, Size size, const Varian
 
 PLACE_TEST_CASE("Real meshes have the oracle's bits", "[meshes]") {
   for (const char* name : {"refined_elephant.off", "bunny00.off"})
-    for (const Size size : {Size{2048, 2048}, {1, 1}, {1, 4096}, {1009, 761}, {4096, 4096}}) checkAt(machine, cgalMesh(name), size);
+    for (const Size size : {Size{2048, 2048}, {1, 1}, {1, 4096}, {1009, 761}, {4096, 4096}})
+      checkAt(machine, cgalMesh(name), size);
 }
 
 PLACE_TEST_CASE("Real meshes have the oracle's bits without bins", "[meshes]") {
@@ -35,9 +40,12 @@ PLACE_TEST_CASE("Real meshes have the oracle's bits without bins", "[meshes]") {
 PLACE_TEST_CASE("Generated meshes have the oracle's bits", "[meshes]") {
   for (const Generator& generator : generators())
     for (const Size size : {Size{2048, 2048}, {1, 1}, {1, 4096}, {1009, 761}, {4096, 4096}}) {
-      // Their defaults once; at the other sizes they would take more time than all else together and show nothing that this size does not.
+      // Their defaults once; at the other sizes they would take more time than all else together and show nothing that
+      // this size does not.
       const bool light = size.width != 2048 || size.height != 2048;
-      const char* fewer = light && generator.name == "hot" ? "?count=20000" : light && generator.name == "layers" ? "?count=4" : "";
+      const char* fewer = light && generator.name == "hot"      ? "?count=20000"
+                          : light && generator.name == "layers" ? "?count=4"
+                                                                : "";
       checkAt(machine, "generate:" + generator.name + fewer, size);
     }
 }

@@ -13,12 +13,13 @@ using namespace tessera;
 namespace {
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr std::uint64_t kScenes = 100;   // the sanitizers look at each access, so they need fewer of them
+constexpr std::uint64_t kScenes = 100;  // the sanitizers look at each access, so they need fewer of them
 #else
 constexpr std::uint64_t kScenes = 1000;
 #endif
-/// Variants a scene: a CPU renders a small scene in a fraction of a millisecond, a software Vulkan driver takes tens of times as long.
-std::size_t variantsOfScene(const Machine& machine) { return machine.info().api == "cpu" ? 24 : 3; }
+/// Variants a scene: a CPU renders a small scene in a fraction of a millisecond, a software Vulkan driver takes tens of
+/// times as long.
+std::size_t variantsOfScene(const Machine& machine) { return machine.info().api == "cpu" ? 24 : 6; }
 
 /// The axes that are no raster path, each value as often as the others.
 Variant drawOthers(const Variant& path, Random& random) {
@@ -36,7 +37,7 @@ Variant drawOthers(const Variant& path, Random& random) {
 
 PLACE_TEST_CASE("Random scenes have the oracle's bits under all variants", "[random]") {
   const std::vector<Variant> paths = rasterPaths(machine.info());
-  std::map<std::string, std::size_t> scenesOf;   // by "axis=value", and by path
+  std::map<std::string, std::size_t> scenesOf;  // by "axis=value", and by path
   std::size_t next = 0, failures = 0;
   for (std::uint64_t seed = 0; seed < kScenes && failures < 3; ++seed) {
     const Scene scene = randomScene(seed);
@@ -58,6 +59,6 @@ PLACE_TEST_CASE("Random scenes have the oracle's bits under all variants", "[ran
   for (const auto& [what, scenes] : scenesOf) {
     INFO(what);
     const bool single = what.find(' ') == std::string::npos;
-    CHECK(scenes * (1000 / kScenes) >= (machine.info().api == "cpu" || single ? 200u : 20u));
+    CHECK(scenes * (1000 / kScenes) >= (machine.info().api == "cpu" || single ? 200u : 50u));
   }
 }

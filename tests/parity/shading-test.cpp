@@ -22,15 +22,18 @@ Scene nearTorus() {
 /// Normal of vertex normals weighed by the original triangle's plane coordinates, in double precision.
 std::array<double, 3> smoothNormal(const Scene& scene, const Triangle& t, double x, double y) {
   const Matrix& m = scene.clipFromObject;
-  double c[3][3];   // x, y, w of each corner
+  double c[3][3];  // x, y, w of each corner
   for (int k = 0; k < 3; ++k) {
     const glm::vec3 p = scene.positions[t[k]];
     const int rows[] = {0, 1, 3};
-    for (int r = 0; r < 3; ++r) c[k][r] = double(m[4 * rows[r]]) * p.x + double(m[4 * rows[r] + 1]) * p.y + double(m[4 * rows[r] + 2]) * p.z + m[4 * rows[r] + 3];
+    for (int r = 0; r < 3; ++r)
+      c[k][r] = double(m[4 * rows[r]]) * p.x + double(m[4 * rows[r] + 1]) * p.y + double(m[4 * rows[r] + 2]) * p.z +
+                m[4 * rows[r] + 3];
   }
   const double px = (x - scene.width / 2.0) / (scene.width / 2.0), py = (y - scene.height / 2.0) / (scene.height / 2.0);
   const auto weight = [&](int a, int b) {
-    return px * (c[a][1] * c[b][2] - c[b][1] * c[a][2]) + py * (c[a][2] * c[b][0] - c[b][2] * c[a][0]) + (c[a][0] * c[b][1] - c[b][0] * c[a][1]);
+    return px * (c[a][1] * c[b][2] - c[b][1] * c[a][2]) + py * (c[a][2] * c[b][0] - c[b][2] * c[a][0]) +
+           (c[a][0] * c[b][1] - c[b][0] * c[a][1]);
   };
   const double w[] = {weight(1, 2), weight(2, 0), weight(0, 1)}, sum = w[0] + w[1] + w[2];
   std::array<double, 3> n{};
@@ -84,16 +87,19 @@ PLACE_TEST_CASE("Smooth normals are perspective-correct", "[shading]") {
     const Triangle& t = scene.triangles[image.ids[k]];
     const auto n = smoothNormal(scene, t, double(k % image.width) + 0.5, double(k / image.width) + 0.5);
     const glm::vec3 at = scene.positions[t[0]];
-    const double toEye[] = {eye[0] - double(eye[3]) * at.x, eye[1] - double(eye[3]) * at.y, eye[2] - double(eye[3]) * at.z};
+    const double toEye[] = {eye[0] - double(eye[3]) * at.x, eye[1] - double(eye[3]) * at.y,
+                            eye[2] - double(eye[3]) * at.z};
     const double size = std::hypot(n[0], n[1], n[2]);
-    const double facing = (n[0] * toEye[0] + n[1] * toEye[1] + n[2] * toEye[2]) / (size * std::hypot(toEye[0], toEye[1], toEye[2]));
+    const double facing =
+        (n[0] * toEye[0] + n[1] * toEye[1] + n[2] * toEye[2]) / (size * std::hypot(toEye[0], toEye[1], toEye[2]));
     const double lit = (n[0] * light[0] + n[1] * light[1] + n[2] * light[2]) / size * (facing < 0 ? -1 : 1);
-    const double expected = 0.04 + 0.26 * std::abs(facing) + 0.7 * std::max(lit, 0.0);   // slang/rasterizer/shade.slang: lambert
+    const double expected =
+        0.04 + 0.26 * std::abs(facing) + 0.7 * std::max(lit, 0.0);  // slang/rasterizer/shade.slang: lambert
     ++checked;
     off += std::abs(image.colour[k].x / 0.62 - expected) > 0.001;
   }
   CHECK(checked > 4000);
-  // A pixel whose centre lies off its triangle by the snapping has a weight of 0 for a slightly negative one; and where the eye sees
-  // the surface edge on, the side that is lit is a matter of rounding.
+  // A pixel whose centre lies off its triangle by the snapping has a weight of 0 for a slightly negative one; and where
+  // the eye sees the surface edge on, the side that is lit is a matter of rounding.
   CHECK(off < checked / 50);
 }

@@ -1,6 +1,8 @@
-// Frames that the host has to cut into bands of rows and batches of triangles, for a device that has less: the bits of one piece.
-#include <catch2/catch.hpp>
+// Frames that the host has to cut into bands of rows and batches of triangles, for a device that has less: the bits of
+// one piece.
 #include <fmt/format.h>
+
+#include <catch2/catch.hpp>
 
 #include "datasets/input.h"
 #include "host/cpu/cpu-device.h"
@@ -29,7 +31,8 @@ std::vector<Variant> paths(const DeviceInfo& device) {
     all.push_back(path);
     if (path.get("binning") == "queue") all.push_back(joined(path, {{"capacity", "16"}, {"tile", "16"}}));
   }
-  for (const Variant& binning : combinations({"binning"}, device)) all.push_back(joined(binning, {{"commit", "count"}}));
+  for (const Variant& binning : combinations({"binning"}, device))
+    all.push_back(joined(binning, {{"commit", "count"}}));
   return all;
 }
 
@@ -43,12 +46,14 @@ TEST_CASE("A device of small buffers gives the bits of a large one", "[cut]") {
   const Scene scene = testScene();
   const reference::Result oracle = reference::render(scene);
   Machine& whole = *machineAt<Cpu>();
-  // 64 rows take 38,400 bytes of depth or 76,800 of packed words; 2,606 pieces take 104,240, and more where they are clipped.
+  // 64 rows take 38,400 bytes of depth or 76,800 of packed words; 2,606 pieces take 104,240, and more where they are
+  // clipped.
   for (const std::uint64_t bytes : {80000u, 160000u, 260000u}) {
     Machine cut = cutMachine(bytes);
     for (const Variant& variant : paths(cut.info())) {
       INFO(fmt::format("{} bytes, {}", bytes, variant.text()));
-      const Frame frame = cut.render(scene, variant, {.countWork = true}), one = whole.render(scene, variant, {.countWork = true});
+      const Frame frame = cut.render(scene, variant, {.countWork = true}),
+                  one = whole.render(scene, variant, {.countWork = true});
       CHECK(one.counters.at("bands") == 1);
       CHECK(one.counters.at("batches") == 1);
       CHECK(frame.counters.at("bands") > 1);
@@ -114,7 +119,7 @@ TEST_CASE("Scenes that no cut can fit are refused", "[cut]") {
     return std::string("no refusal");
   };
   Scene scene = loadInput("generate:grid?columns=40&rows=40", 64, 64);
-  Machine small = cutMachine(17000);   // 1,681 vertices take 26,896 bytes in clip space
+  Machine small = cutMachine(17000);  // 1,681 vertices take 26,896 bytes in clip space
   CHECK_THAT(refusal(small, scene), Catch::Contains("1681 vertices take 26896 bytes") && Catch::Contains("17000"));
   scene.width = scene.height = 2048;
   Machine middle = cutMachine(1 << 20);

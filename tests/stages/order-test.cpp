@@ -1,7 +1,8 @@
 // Neither order nor the number of threads nor repetition changes a bit.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <catch2/catch.hpp>
-#include <fmt/format.h>
 
 #include "datasets/input.h"
 #include "datasets/random.h"
@@ -66,7 +67,8 @@ PLACE_TEST_CASE("The order of triangles changes ids and no depth", "[order]") {
   std::vector<std::uint32_t> order(scene.triangles.size());
   for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
   Random random(4);
-  for (std::uint32_t i = static_cast<std::uint32_t>(order.size()); i > 1; --i) std::swap(order[i - 1], order[random.bits() % i]);
+  for (std::uint32_t i = static_cast<std::uint32_t>(order.size()); i > 1; --i)
+    std::swap(order[i - 1], order[random.bits() % i]);
   Scene shuffled = scene;
   for (std::uint32_t i = 0; i < order.size(); ++i) shuffled.triangles[i] = scene.triangles[order[i]];
 

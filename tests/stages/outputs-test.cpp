@@ -23,7 +23,8 @@ bool isFinite(const Scene& scene) {
 /// Random scenes without NaN, whose bits no rule of arithmetic fixes, and one that is clipped much.
 std::vector<Scene> scenes() {
   std::vector<Scene> all{loadInput("generate:torus?rings=40&sides=20", 500, 300)};
-  all.back().clipFromObject = {1.7f, 0.3f, 0, 0.2f, 0.1f, -2.1f, 0.4f, 0, 0.2f, 0.3f, -1.01f, 0.6f, 0.2f, 0.3f, -1, 0.8f};
+  all.back().clipFromObject = {1.7f, 0.3f, 0,      0.2f, 0.1f, -2.1f, 0.4f, 0,
+                               0.2f, 0.3f, -1.01f, 0.6f, 0.2f, 0.3f,  -1,   0.8f};
   for (std::uint64_t seed = 5000; all.size() < 40; ++seed)
     if (Scene scene = randomScene(seed); isFinite(scene)) all.push_back(std::move(scene));
   return all;

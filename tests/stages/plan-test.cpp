@@ -31,11 +31,12 @@ bool ran(const Frame& frame, const std::string& stage) {
 }  // namespace
 
 PLACE_TEST_CASE("The planned pipeline has the bits of the full one", "[plan]") {
-  std::map<std::string, std::set<bool>> seen;   // kept or left out, by pass
+  std::map<std::string, std::set<bool>> seen;  // kept or left out, by pass
   for (std::uint64_t seed = kFirstSeed; seed < kFirstSeed + kScenes; ++seed) {
     const Scene scene = randomScene(seed);
     INFO(scene.name);
-    const Frame planned = machine.render(scene, {{"plan", "planned"}}), full = machine.render(scene, {{"plan", "full"}});
+    const Frame planned = machine.render(scene, {{"plan", "planned"}}),
+                full = machine.render(scene, {{"plan", "full"}});
     CHECK(difference(planned.image, full.image) == "");
     for (const PlanEntry& entry : planned.plan.entries) {
       CHECK(entry.why != "");
@@ -44,7 +45,8 @@ PLACE_TEST_CASE("The planned pipeline has the bits of the full one", "[plan]") {
     }
     // The full one leaves nothing out that is not asked for by an axis or has no input.
     for (const PlanEntry& entry : full.plan.entries)
-      if (entry.pass == "setup: clip" || entry.pass == "project: perspective division" || entry.pass == "clear") CHECK(entry.kept);
+      if (entry.pass == "setup: clip" || entry.pass == "project: perspective division" || entry.pass == "clear")
+        CHECK(entry.kept);
     CHECK(ran(full, "clear"));
     CHECK(ran(planned, "clear") == !left(planned.plan).contains("clear"));
     CHECK(ran(planned, "transform") == !left(planned.plan).contains("transform"));

@@ -1,4 +1,5 @@
-// Variants that a scene or a device cannot have: the exit code of its kind, and a line that says which axis and value, why, and what would do.
+// Variants that a scene or a device cannot have: the exit code of its kind, and a line that says which axis and value,
+// why, and what would do.
 #include <catch2/catch.hpp>
 
 #include "datasets/input.h"
@@ -22,7 +23,8 @@ DeviceInfo vulkan() {
   return info;
 }
 
-void checkRefusal(const Scene& scene, const Variant& variant, const DeviceInfo& device, ExitCode code, const std::vector<std::string>& parts) {
+void checkRefusal(const Scene& scene, const Variant& variant, const DeviceInfo& device, ExitCode code,
+                  const std::vector<std::string>& parts) {
   INFO(variant.text());
   try {
     makePlan(scene, variant, device);
@@ -41,33 +43,40 @@ Scene sphere() { return loadInput("generate:icosphere?level=1", 64, 64); }
 
 TEST_CASE("Axes that a scene cannot have are refused", "[refusals]") {
   Scene crossing = sphere();
-  crossing.clipFromObject[11] -= 3;   // z: the near side comes before the near plane
+  crossing.clipFromObject[11] -= 3;  // z: the near side comes before the near plane
   checkRefusal(crossing, {{"clip", "off"}}, cpu(), ExitCode::kUsage, {"clip=off", "cross a clip plane", "set clip=on"});
-  checkRefusal(sphere(), {{"projection", "orthographic"}}, cpu(), ExitCode::kUsage, {"projection=orthographic", "w is not 1", "leave projection unset"});
+  checkRefusal(sphere(), {{"projection", "orthographic"}}, cpu(), ExitCode::kUsage,
+               {"projection=orthographic", "w is not 1", "leave projection unset"});
 
   Scene clipSpace;
   clipSpace.clip = {{0, 0, 0, 1}, {1, 0, 0, 1}, {0, 1, 0, 1}};
   clipSpace.triangles = {{0, 1, 2}};
   for (const char* shade : {"flat", "smooth"})
-    checkRefusal(clipSpace, {{"shade", shade}}, cpu(), ExitCode::kUsage, {std::string("shade=") + shade, "clip-space positions only", "set shade=id"});
+    checkRefusal(clipSpace, {{"shade", shade}}, cpu(), ExitCode::kUsage,
+                 {std::string("shade=") + shade, "clip-space positions only", "set shade=id"});
   Scene bare = sphere();
   bare.normals.clear();
-  checkRefusal(bare, {{"shade", "smooth"}}, cpu(), ExitCode::kUsage, {"shade=smooth", "no vertex normals", "set shade=flat"});
+  checkRefusal(bare, {{"shade", "smooth"}}, cpu(), ExitCode::kUsage,
+               {"shade=smooth", "no vertex normals", "set shade=flat"});
 }
 
 TEST_CASE("Axes that do not go together are refused", "[refusals]") {
   checkRefusal(sphere(), {{"commit", "tile-owned"}, {"binning", "none"}}, cpu(), ExitCode::kUsage,
                {"commit=tile-owned", "binning=none", "needs bins", "set binning=exact or queue"});
-  checkRefusal(sphere(), {{"shade", "flat"}, {"commit", "count"}}, cpu(), ExitCode::kUsage, {"shade=flat", "commit=count", "no ids", "set shade=none"});
+  checkRefusal(sphere(), {{"shade", "flat"}, {"commit", "count"}}, cpu(), ExitCode::kUsage,
+               {"shade=flat", "commit=count", "no ids", "set shade=none"});
 }
 
 TEST_CASE("Variants that a device cannot run are refused", "[refusals]") {
-  checkRefusal(sphere(), {{"route", "spirv"}}, cpu(), ExitCode::kUnsupported, {"route=spirv", "cpu device", "route=cpp"});
+  checkRefusal(sphere(), {{"route", "spirv"}}, cpu(), ExitCode::kUnsupported,
+               {"route=spirv", "cpu device", "route=cpp"});
   checkRefusal(sphere(), {{"route", "glsl"}}, cpu(), ExitCode::kUnsupported, {"route=glsl", "cpu device", "route=cpp"});
-  checkRefusal(sphere(), {{"route", "cpp"}}, vulkan(), ExitCode::kUnsupported, {"route=cpp", "vulkan device", "route=spirv or route=glsl"});
+  checkRefusal(sphere(), {{"route", "cpp"}}, vulkan(), ExitCode::kUnsupported,
+               {"route=cpp", "vulkan device", "route=spirv or route=glsl"});
   DeviceInfo device = vulkan();
   device.maxGroupBytes = 16384;
-  checkRefusal(sphere(), {{"tile", "64"}}, device, ExitCode::kUnsupported, {"tile=64", "32768 bytes", "test GPU has 16384", "set a smaller tile"});
+  checkRefusal(sphere(), {{"tile", "64"}}, device, ExitCode::kUnsupported,
+               {"tile=64", "32768 bytes", "test GPU has 16384", "set a smaller tile"});
   device = vulkan();
   device.atomicMin64 = false;
   checkRefusal(sphere(), {{"commit", "depth32+id32"}}, device, ExitCode::kUnsupported,

@@ -7,7 +7,9 @@
 
 namespace tessera {
 
-/// `inner` with smaller limits (0: as they are). It refuses a buffer beyond its limit, as a real device of that size would.
-std::unique_ptr<Device> makeCutDevice(std::unique_ptr<Device> inner, std::uint64_t maxBufferBytes, std::uint32_t maxLoopIterations = 0);
+/// `inner` with smaller limits (0: as they are). It refuses a buffer beyond its limit, as a real device of that size
+/// would.
+std::unique_ptr<Device> makeCutDevice(std::unique_ptr<Device> inner, std::uint64_t maxBufferBytes,
+                                      std::uint32_t maxLoopIterations = 0);
 
 }  // namespace tessera

@@ -9,7 +9,11 @@
 namespace tessera {
 
 Machine::Machine(std::string name, std::string route, std::unique_ptr<Device> device, KernelCache::Options options)
-    : name_(std::move(name)), route_(std::move(route)), device_(std::move(device)), kernels_(std::move(options)), rasterizer_(*device_, kernels_) {}
+    : name_(std::move(name)),
+      route_(std::move(route)),
+      device_(std::move(device)),
+      kernels_(std::move(options)),
+      rasterizer_(*device_, kernels_) {}
 
 Variant Machine::routed(Variant variant) const {
   if (!variant.has("route")) variant.set("route", route_);
@@ -20,7 +24,9 @@ Frame Machine::render(const Scene& scene, Variant variant, const FrameOptions& o
   return rasterizer_.render(scene, routed(std::move(variant)), options);
 }
 
-Plan Machine::plan(const Scene& scene, Variant variant) const { return makePlan(scene, routed(std::move(variant)), info()); }
+Plan Machine::plan(const Scene& scene, Variant variant) const {
+  return makePlan(scene, routed(std::move(variant)), info());
+}
 
 Machine* machineAt(const std::string& place, const std::string& route) {
   static std::map<std::string, Machine> machines;
@@ -39,7 +45,7 @@ Machine* machineAt(const std::string& place, const std::string& route) {
     options.validation = true;
     options.onMessage = [](const std::string& message) { FAIL_CHECK(message); };
 #endif
-    device = makeVulkanDevice(options);   // throws, and so fails the test, where there is none
+    device = makeVulkanDevice(options);  // throws, and so fails the test, where there is none
   }
   KernelCache::Options options;
   options.boundsChecks = place == CheckedCpu::kName;

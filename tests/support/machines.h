@@ -46,29 +46,33 @@ class Machine {
   std::string name_, route_;
   std::unique_ptr<Device> device_;
   KernelCache kernels_;
-  Rasterizer rasterizer_;   // after what it uses
+  Rasterizer rasterizer_;  // after what it uses
 };
 
-/// One machine of each place for the whole program, so that kernels are loaded once. A test fails where there is no Vulkan
-/// device. With TESSERA_NO_VULKAN=1 in the environment it warns instead, and null comes back.
+/// One machine of each place for the whole program, so that kernels are loaded once. A test fails where there is no
+/// Vulkan device. With TESSERA_NO_VULKAN=1 in the environment it warns instead, and null comes back.
 Machine* machineAt(const std::string& place, const std::string& route);
-template <typename Place> Machine* machineAt() { return machineAt(Place::kName, Place::kRoute); }
+template <typename Place>
+Machine* machineAt() {
+  return machineAt(Place::kName, Place::kRoute);
+}
 
 }  // namespace tessera
 
-/// `body` is run with `Machine& machine`.
-#define PLACE_TEST_CASE_IMPLEMENTATION(run, title, tags, ...)                             \
-  static void run(tessera::Machine& machine);                                              \
-  TEMPLATE_TEST_CASE(title, tags, __VA_ARGS__) {                                            \
-    if (tessera::Machine* machine = tessera::machineAt<TestType>()) {                      \
-      INFO("on " << machine->name());                                                      \
-      run(*machine);                                                                       \
-    }                                                                                      \
-  }                                                                                        \
+/// PLACE_TEST_CASE(title, tags) { ... `machine` ... }: a test case on each machine.
+#define PLACE_TEST_CASE_AT(run, title, tags, ...)                     \
+  static void run(tessera::Machine& machine);                         \
+  TEMPLATE_TEST_CASE(title, tags, __VA_ARGS__) {                      \
+    if (tessera::Machine* machine = tessera::machineAt<TestType>()) { \
+      INFO("on " << machine->name());                                 \
+      run(*machine);                                                  \
+    }                                                                 \
+  }                                                                   \
   static void run(tessera::Machine& machine)
-#define PLACE_TEST_CASE(title, tags) \
-  PLACE_TEST_CASE_IMPLEMENTATION(INTERNAL_CATCH_UNIQUE_NAME(runAt), title, tags, tessera::Cpu, tessera::VulkanSpirv, tessera::VulkanGlsl)
+#define PLACE_TEST_CASE(title, tags)                                                                     \
+  PLACE_TEST_CASE_AT(INTERNAL_CATCH_UNIQUE_NAME(runAt), title, tags, tessera::Cpu, tessera::VulkanSpirv, \
+                     tessera::VulkanGlsl)
 /// The same, and once more with bounds checks in the CPU's kernels.
-#define CHECKED_PLACE_TEST_CASE(title, tags)                                                                                            \
-  PLACE_TEST_CASE_IMPLEMENTATION(INTERNAL_CATCH_UNIQUE_NAME(runAt), title, tags, tessera::Cpu, tessera::CheckedCpu, tessera::VulkanSpirv, \
-                                 tessera::VulkanGlsl)
+#define CHECKED_PLACE_TEST_CASE(title, tags)                                                            \
+  PLACE_TEST_CASE_AT(INTERNAL_CATCH_UNIQUE_NAME(runAt), title, tags, tessera::Cpu, tessera::CheckedCpu, \
+                     tessera::VulkanSpirv, tessera::VulkanGlsl)

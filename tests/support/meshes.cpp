@@ -1,11 +1,11 @@
 #include "meshes.h"
 
+#include <fmt/format.h>
+#include <unistd.h>
+
 #include <catch2/catch.hpp>
 #include <cstdlib>
 #include <filesystem>
-#include <unistd.h>
-
-#include <fmt/format.h>
 
 namespace tessera {
 

@@ -5,7 +5,8 @@
 
 namespace tessera {
 
-/// Path of one of the OFF files of libcgal-demo, unpacked into the build tree once. The test fails where the package is missing.
+/// Path of one of the OFF files of libcgal-demo, unpacked into the build tree once. The test fails where the package is
+/// missing.
 std::string cgalMesh(const std::string& name);
 
 }  // namespace tessera

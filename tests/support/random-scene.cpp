@@ -1,7 +1,8 @@
 #include "random-scene.h"
 
-#include <cmath>
 #include <fmt/format.h>
+
+#include <cmath>
 #include <limits>
 
 #include "datasets/random.h"
@@ -14,7 +15,9 @@ constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 
 class Maker {
  public:
-  explicit Maker(std::uint64_t seed) : random_(seed * 0x9e3779b97f4a7c15u + 1) { scene_.name = fmt::format("random scene {}", seed); }
+  explicit Maker(std::uint64_t seed) : random_(seed * 0x9e3779b97f4a7c15u + 1) {
+    scene_.name = fmt::format("random scene {}", seed);
+  }
 
   Scene make() {
     chooseScene();
@@ -45,43 +48,59 @@ class Maker {
     zKind_ = below(4);
     object_ = wKind_ < 3 && chance(0.25);
     const double largest = std::max(scene_.width, scene_.height);
-    size_ = std::exp2(random_.between(-4, std::log2(largest) + 1));   // pixels
+    size_ = std::exp2(random_.between(-4, std::log2(largest) + 1));  // pixels
   }
 
   float chooseW() {
     if (chance(0.02)) return 0.0f;
     const double sign = chance(0.05) ? -1 : 1;
     switch (wKind_) {
-      case 0: return 1.0f;
-      case 1: return static_cast<float>(sign * std::exp2(double(below(9)) - 4));
-      case 2: return static_cast<float>(sign * std::exp2(random_.between(-20, 20)));
-      default: return static_cast<float>(sign * std::exp2(chance(0.5) ? random_.between(-4, 4) : random_.between(-149, 127)));
+      case 0:
+        return 1.0f;
+      case 1:
+        return static_cast<float>(sign * std::exp2(double(below(9)) - 4));
+      case 2:
+        return static_cast<float>(sign * std::exp2(random_.between(-20, 20)));
+      default:
+        return static_cast<float>(sign * std::exp2(chance(0.5) ? random_.between(-4, 4) : random_.between(-149, 127)));
     }
   }
 
-  double chooseZ() {   // z / w
+  double chooseZ() {  // z / w
     switch (zKind_) {
-      case 0: return random_.unit();
-      case 1: return below(9) / 8.0;
-      case 2: return chance(0.1) ? around(0.5, 2) : below(3) / 2.0;
-      default: return around(0.5, 0.75);
+      case 0:
+        return random_.unit();
+      case 1:
+        return below(9) / 8.0;
+      case 2:
+        return chance(0.1) ? around(0.5, 2) : below(3) / 2.0;
+      default:
+        return around(0.5, 0.75);
     }
   }
 
   // ---- vertices: pixels from the top left corner
 
-  struct Point { double x, y; };
+  struct Point {
+    double x, y;
+  };
 
   Point near(Point centre) {
     const double radius = chance(0.1) ? size_ * 8 : size_;
     const Point p{around(centre.x, radius), around(centre.y, radius)};
     switch (below(8)) {
-      case 0: return {std::floor(p.x) + 0.5, std::floor(p.y) + 0.5};
-      case 1: return {std::floor(p.x), std::floor(p.y)};
-      case 2: return {std::floor(p.x * 256) / 256, std::floor(p.y * 256) / 256};
-      case 3: return {(std::floor(p.x * 256) + 0.5) / 256, (std::floor(p.y * 256) + 0.5) / 256};
-      case 4: return chance(0.5) ? Point{std::floor(p.x) + 0.5, p.y} : Point{p.x, std::floor(p.y) + 0.5};
-      default: return p;
+      case 0:
+        return {std::floor(p.x) + 0.5, std::floor(p.y) + 0.5};
+      case 1:
+        return {std::floor(p.x), std::floor(p.y)};
+      case 2:
+        return {std::floor(p.x * 256) / 256, std::floor(p.y * 256) / 256};
+      case 3:
+        return {(std::floor(p.x * 256) + 0.5) / 256, (std::floor(p.y * 256) + 0.5) / 256};
+      case 4:
+        return chance(0.5) ? Point{std::floor(p.x) + 0.5, p.y} : Point{p.x, std::floor(p.y) + 0.5};
+      default:
+        return p;
     }
   }
 
@@ -89,10 +108,14 @@ class Maker {
     const auto side = [&](double extent) {
       const double guard = (chance(0.5) ? -1 : 1) * 32767.0;
       switch (below(4)) {
-        case 0: return around(extent / 2, extent);
-        case 1: return extent / 2 + guard + (chance(0.5) ? 0 : around(0, 2));
-        case 2: return extent / 2 + around(0, 40000);
-        default: return around(0, 1) * std::exp2(random_.between(10, 40));
+        case 0:
+          return around(extent / 2, extent);
+        case 1:
+          return extent / 2 + guard + (chance(0.5) ? 0 : around(0, 2));
+        case 2:
+          return extent / 2 + around(0, 40000);
+        default:
+          return around(0, 1) * std::exp2(random_.between(10, 40));
       }
     };
     return {side(scene_.width), side(scene_.height)};
@@ -102,13 +125,16 @@ class Maker {
     const double halfWidth = scene_.width / 2.0, halfHeight = scene_.height / 2.0;
     // Where w is 0 the point is a direction.
     const double scale = w == 0 ? 1 : w;
-    scene_.clip.emplace_back(static_cast<float>((p.x - halfWidth) / halfWidth * scale), static_cast<float>((p.y - halfHeight) / halfHeight * scale),
+    scene_.clip.emplace_back(static_cast<float>((p.x - halfWidth) / halfWidth * scale),
+                             static_cast<float>((p.y - halfHeight) / halfHeight * scale),
                              static_cast<float>(depth * scale), w);
     points_.push_back(p);
     return static_cast<std::uint32_t>(scene_.clip.size() - 1);
   }
 
-  std::uint32_t newVertex(Point centre) { return addVertex(chance(0.04) ? farOut() : near(centre), chooseZ(), chooseW()); }
+  std::uint32_t newVertex(Point centre) {
+    return addVertex(chance(0.04) ? farOut() : near(centre), chooseZ(), chooseW());
+  }
 
   /// On the edge of an earlier triangle, a simple fraction along it.
   std::uint32_t vertexOnEdge() {
@@ -122,17 +148,25 @@ class Maker {
   // ---- triangles
 
   const Triangle& earlier() { return scene_.triangles[below(scene_.triangles.size())]; }
-  Point onScreen() { return {around(scene_.width / 2.0, scene_.width * 0.55), around(scene_.height / 2.0, scene_.height * 0.55)}; }
+  Point onScreen() {
+    return {around(scene_.width / 2.0, scene_.width * 0.55), around(scene_.height / 2.0, scene_.height * 0.55)};
+  }
 
   void addTriangle() {
     const Point centre = onScreen();
     const auto anyVertex = [&] { return below(scene_.clip.size()); };
     switch (scene_.triangles.empty() ? 0 : below(10)) {
-      case 0: case 1: case 2: case 3:
+      case 0:
+      case 1:
+      case 2:
+      case 3:
         scene_.triangles.push_back({newVertex(centre), newVertex(centre), newVertex(centre)});
         break;
-      case 4: scene_.triangles.push_back({anyVertex(), anyVertex(), anyVertex()}); break;
-      case 5: case 6: {   // across an edge of an earlier one
+      case 4:
+        scene_.triangles.push_back({anyVertex(), anyVertex(), anyVertex()});
+        break;
+      case 5:
+      case 6: {  // across an edge of an earlier one
         const Triangle t = earlier();
         const std::uint32_t corner = below(3), a = t[corner], b = t[(corner + 1) % 3];
         scene_.triangles.push_back({b, a, newVertex(points_[a])});
@@ -143,10 +177,13 @@ class Maker {
         scene_.triangles.push_back(chance(0.5) ? t : Triangle{t[2], t[1], t[0]});
         break;
       }
-      case 8: scene_.triangles.push_back({vertexOnEdge(), vertexOnEdge(), newVertex(centre)}); break;
+      case 8:
+        scene_.triangles.push_back({vertexOnEdge(), vertexOnEdge(), newVertex(centre)});
+        break;
       default: {
         const std::uint32_t a = anyVertex();
-        scene_.triangles.push_back(chance(0.5) ? Triangle{a, a, newVertex(centre)} : Triangle{a, newVertex(centre), newVertex(points_[a])});
+        scene_.triangles.push_back(chance(0.5) ? Triangle{a, a, newVertex(centre)}
+                                               : Triangle{a, newVertex(centre), newVertex(points_[a])});
       }
     }
   }
@@ -171,7 +208,7 @@ class Maker {
 
   Random random_;
   Scene scene_;
-  std::vector<Point> points_;   // of each vertex, as it was meant
+  std::vector<Point> points_;  // of each vertex, as it was meant
   bool powerOfTwo_ = false, object_ = false;
   std::uint32_t wKind_ = 0, zKind_ = 0;
   double size_ = 1;

@@ -9,12 +9,15 @@ namespace tessera {
 namespace {
 
 /// An axis that only matters under a value of another one.
-struct Condition { const char *axis, *on, *value; };
+struct Condition {
+  const char *axis, *on, *value;
+};
 constexpr Condition kConditions[] = {{"capacity", "binning", "queue"}, {"overflow", "binning", "queue"}};
 
 bool isRead(const std::string& axis, const Variant& variant) {
   if (axis == "tile" && variant.get("binning") == "none") return false;
-  return std::ranges::all_of(kConditions, [&](const Condition& c) { return axis != c.axis || variant.get(c.on) == c.value; });
+  return std::ranges::all_of(kConditions,
+                             [&](const Condition& c) { return axis != c.axis || variant.get(c.on) == c.value; });
 }
 
 /// What the planner makes of a variant on an empty scene; "" where it refuses it.
@@ -33,14 +36,16 @@ std::vector<std::string> losslessValues(const Axis& axis) {
   std::vector<std::string> names;
   for (const AxisValue& value : axis.values)
     // overflow=error loses nothing either: the frame fails.
-    if (value.kind == AxisKind::kImplementation && !(axis.name == "overflow" && value.name == "error")) names.push_back(value.name);
+    if (value.kind == AxisKind::kImplementation && !(axis.name == "overflow" && value.name == "error"))
+      names.push_back(value.name);
   return names;
 }
 
 std::vector<std::string> implementationAxes() {
   std::vector<std::string> names;
   for (const Axis& axis : axes()) {
-    const bool planners = axis.name == "clip" || axis.name == "projection", places = axis.name == "route", output = axis.name == "counters";
+    const bool planners = axis.name == "clip" || axis.name == "projection", places = axis.name == "route",
+               output = axis.name == "counters";
     if (!planners && !places && !output && losslessValues(axis).size() > 1) names.push_back(axis.name);
   }
   return names;
@@ -51,7 +56,8 @@ std::vector<Variant> combinations(const std::vector<std::string>& names, const D
   for (const std::string& name : names) {
     std::vector<Variant> next;
     for (const Variant& variant : all)
-      for (const std::string& value : isRead(name, variant) ? losslessValues(axis(name)) : std::vector<std::string>{""}) {
+      for (const std::string& value :
+           isRead(name, variant) ? losslessValues(axis(name)) : std::vector<std::string>{""}) {
         next.push_back(variant);
         if (!value.empty()) next.back().set(name, value);
       }

@@ -9,17 +9,20 @@
 
 namespace tessera {
 
-/// Names of the values of an axis that may change no bit. Of an axis of integers, a few from its least one on; "" is the plan's choice.
+/// Names of the values of an axis that may change no bit. Of an axis of integers, a few from its least one on; "" is
+/// the plan's choice.
 std::vector<std::string> losslessValues(const Axis& axis);
-/// Axes with two or more lossless values that a test can set on any scene: all but those that only the planner knows to set
-/// (clip, projection), the one that the machine sets (route), and the one that chooses what comes back, not how it is made (counters).
+/// Axes with two or more lossless values that a test can set on any scene: all but those that only the planner knows to
+/// set (clip, projection), the one that the machine sets (route), and the one that chooses what comes back, not how it
+/// is made (counters).
 std::vector<std::string> implementationAxes();
-/// Every combination of lossless values of these axes that the planner accepts on this device, an axis that a combination does not read
-/// (tile without bins, capacity without queues) being left unset.
+/// Every combination of lossless values of these axes that the planner accepts on this device, an axis that a
+/// combination does not read (tile without bins, capacity without queues) being left unset.
 std::vector<Variant> combinations(const std::vector<std::string>& axes, const DeviceInfo& device);
 /// The paths of a sample to the frame: combinations of the axes that raster's kernels and the bins depend on.
 std::vector<Variant> rasterPaths(const DeviceInfo& device);
-/// A few of them, on top of `base`: for each value of `binning` the plan's choice for the others, then each other value of each of them alone.
+/// A few of them, on top of `base`: for each value of `binning` the plan's choice for the others, then each other value
+/// of each of them alone.
 std::vector<Variant> eachAlone(const Variant& base, const DeviceInfo& device);
 /// The settings of `more` on top of those of `variant`.
 Variant joined(Variant variant, const Variant& more);
