@@ -7,9 +7,9 @@
 namespace tessera {
 
 struct CounterDoc {
-  std::string name;      ///< lowerCamelCase; kernels know it as kCount + UpperCamelCase
-  std::string meaning;   ///< one line
-  bool inKernels;        ///< counted by kernels; else by the host
+  std::string name;     ///< lowerCamelCase; kernels know it as kCount + UpperCamelCase
+  std::string meaning;  ///< one line
+  bool inKernels;       ///< counted by kernels; else by the host
 };
 
 /// In pipeline order; the kernels' ones first, the index of each is its index in the counter buffer.

@@ -13,10 +13,10 @@ inline constexpr std::uint32_t kNoTriangle = 0xffffffffu;  ///< id of an empty p
 struct Framebuffer {
   std::uint32_t width = 0;
   std::uint32_t height = 0;
-  std::vector<float> depth;          ///< [+0, 1]; empty under commit=count
-  std::vector<std::uint32_t> ids;    ///< triangle id or kNoTriangle; empty under commit=count
-  std::vector<std::uint32_t> hits;   ///< triangles that cover the sample; only under commit=count
-  std::vector<glm::vec3> colour;     ///< linear RGB, [0, 1]; only when shading was asked for
+  std::vector<float> depth;         ///< [+0, 1]; empty under commit=count
+  std::vector<std::uint32_t> ids;   ///< triangle id or kNoTriangle; empty under commit=count
+  std::vector<std::uint32_t> hits;  ///< triangles that cover the sample; only under commit=count
+  std::vector<glm::vec3> colour;    ///< linear RGB, [0, 1]; only when shading was asked for
 
   std::size_t pixels() const { return std::size_t{width} * height; }
 };

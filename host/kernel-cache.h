@@ -13,32 +13,35 @@ namespace tessera {
 
 /// One kernel to compile. The generated variant module is the only thing that differs between variants of a stage.
 struct KernelRequest {
-  std::string stage;            ///< for messages and CompiledKernel::stage
-  std::string source;           ///< file under slang/, e.g. "rasterizer/raster-tile.slang"
-  std::string entry;            ///< entry point
+  std::string stage;   ///< for messages and CompiledKernel::stage
+  std::string source;  ///< file under slang/, e.g. "rasterizer/raster-tile.slang"
+  std::string entry;   ///< entry point
   Route route = Route::kCpp;
-  std::string variantModule;    ///< text of variant.slang, imported by the sources as `variant`
-  std::string variantName;      ///< "axis=value axis=value", for messages
+  std::string variantModule;  ///< text of variant.slang, imported by the sources as `variant`
+  std::string variantName;    ///< "axis=value axis=value", for messages
 };
 
 struct ToolInfo {
   std::filesystem::path path;
   std::string version;
-  std::string origin;           ///< "SLANGC", "PATH" or "tools" (the pinned one that ./dev fetched)
+  std::string origin;  ///< "SLANGC", "PATH" or "tools" (the pinned one that ./dev fetched)
 };
 
-/// Content-addressed: the key holds the text of the Slang sources that the kernel imports, the variant module, flags, slangc's and the C++ compiler's
-/// versions, and the resolved CPU target. Safe when two processes fill it at once (written beside, renamed); a broken entry
-/// is rebuilt. Thread-safe.
+/// Content-addressed: the key holds the text of the Slang sources that the kernel imports, the variant module, flags,
+/// slangc's and the C++ compiler's versions, and the resolved CPU target. Safe when two processes fill it at once
+/// (written beside, renamed); a broken entry is rebuilt. Thread-safe.
 class KernelCache {
  public:
   struct Options {
-    std::filesystem::path folder;        ///< default: $TESSERA_CACHE, else $XDG_CACHE_HOME/tessera, else ~/.cache/tessera
-    std::filesystem::path slangSources;  ///< default: $TESSERA_SLANG_SOURCES, else the installed or source folder known at build time
-    bool boundsChecks = false;           ///< kCpp: compile Slang's bounds checks in (asserts)
-    std::string extraCxxFlags;           ///< kCpp: separated by spaces, after those that the build gave (its sanitizers)
+    std::filesystem::path folder;  ///< default: $TESSERA_CACHE, else $XDG_CACHE_HOME/tessera, else ~/.cache/tessera
+    std::filesystem::path
+        slangSources;  ///< default: $TESSERA_SLANG_SOURCES, else the installed or source folder known at build time
+    bool boundsChecks = false;  ///< kCpp: compile Slang's bounds checks in (asserts)
+    std::string extraCxxFlags;  ///< kCpp: separated by spaces, after those that the build gave (its sanitizers)
   };
-  struct Statistics { std::size_t hits = 0, compiled = 0, rebuilt = 0; };  ///< rebuilt: broken entries, among the compiled
+  struct Statistics {
+    std::size_t hits = 0, compiled = 0, rebuilt = 0;
+  };  ///< rebuilt: broken entries, among the compiled
   KernelCache();
   explicit KernelCache(Options options);
   ~KernelCache();
@@ -47,10 +50,11 @@ class KernelCache {
   /// Compiles if it is not there. Throws kFailure with Slang's or the compiler's first message and the variant's name.
   CompiledKernel get(const KernelRequest& request);
   /// Compiles many on all cores; `progress(done, total)` may be empty.
-  std::vector<CompiledKernel> getAll(const std::vector<KernelRequest>& requests, const std::function<void(std::size_t, std::size_t)>& progress = {});
+  std::vector<CompiledKernel> getAll(const std::vector<KernelRequest>& requests,
+                                     const std::function<void(std::size_t, std::size_t)>& progress = {});
 
-  const ToolInfo& slangc() const;          ///< the compiler in use: one whose SPIR-V passes checkSpirv()
-  std::string cxx() const;                 ///< "g++ 12.2.0, -O3 -march=native ... (znver4)"
+  const ToolInfo& slangc() const;  ///< the compiler in use: one whose SPIR-V passes checkSpirv()
+  std::string cxx() const;         ///< "g++ 12.2.0, -O3 -march=native ... (znver4)"
   std::filesystem::path folder() const;
   Statistics statistics() const;
 

@@ -13,22 +13,25 @@ enum class Route { kCpp, kSpirv, kGlsl };
 
 /// Where the parameters of a kernel go, read from slangc's reflection JSON; no layout is retyped by hand.
 struct KernelInterface {
-  struct Field { std::uint32_t offset = 0, size = 0; };  ///< bytes, in the uniform block
-  std::map<std::string, Field> fields;                   ///< fields of the one ConstantBuffer, `frame`
-  std::uint32_t blockSize = 0;                           ///< bytes of that block
-  /// Resource name -> descriptor binding in set 0 (kSpirv, kGlsl) or byte offset in the global struct (kCpp: the block is
-  /// a pointer; a structured buffer is a pointer followed by a 64-bit element count). The block is among them as "frame".
+  struct Field {
+    std::uint32_t offset = 0, size = 0;
+  };                                    ///< bytes, in the uniform block
+  std::map<std::string, Field> fields;  ///< fields of the one ConstantBuffer, `frame`
+  std::uint32_t blockSize = 0;          ///< bytes of that block
+  /// Resource name -> descriptor binding in set 0 (kSpirv, kGlsl) or byte offset in the global struct (kCpp: the block
+  /// is a pointer; a structured buffer is a pointer followed by a 64-bit element count). The block is among them as
+  /// "frame".
   std::map<std::string, std::uint32_t> resources;
-  std::map<std::string, std::uint32_t> elementSizes;     ///< bytes of one element of each structured buffer
-  std::uint32_t globalsSize = 0;                         ///< kCpp: bytes of the global struct
+  std::map<std::string, std::uint32_t> elementSizes;  ///< bytes of one element of each structured buffer
+  std::uint32_t globalsSize = 0;                      ///< kCpp: bytes of the global struct
 };
 
 struct CompiledKernel {
-  std::string stage;               ///< the stage's name, as in variant.h
-  std::string entry;               ///< entry point in the binary
+  std::string stage;  ///< the stage's name, as in variant.h
+  std::string entry;  ///< entry point in the binary
   Route route = Route::kCpp;
-  std::filesystem::path binary;    ///< shared object (kCpp) or SPIR-V module
-  std::string hash;                ///< content hash: sources, variant, flags, compilers
+  std::filesystem::path binary;  ///< shared object (kCpp) or SPIR-V module
+  std::string hash;              ///< content hash: sources, variant, flags, compilers
   KernelInterface interface;
 };
 

@@ -29,7 +29,8 @@ Lighting lightingOf(const Matrix& m) {
   if (perspective && determinant != 0 && std::isfinite(determinant))
     eye = glm::dvec4(glm::inverse(rows) * -glm::dvec3(m[3], m[7], m[15]), 1);
   const auto single = [](double v) { return static_cast<float>(v); };
-  return {{single(light.x), single(light.y), single(light.z)}, {single(eye.x), single(eye.y), single(eye.z), single(eye.w)}};
+  return {{single(light.x), single(light.y), single(light.z)},
+          {single(eye.x), single(eye.y), single(eye.z), single(eye.w)}};
 }
 
 }  // namespace tessera

@@ -8,8 +8,8 @@
 namespace tessera {
 
 struct Lighting {
-  std::array<float, 3> light;   ///< unit vector towards the light, object space
-  std::array<float, 4> eye;     ///< homogeneous, object space; w is 1, or 0 where the projection is parallel
+  std::array<float, 3> light;  ///< unit vector towards the light, object space
+  std::array<float, 4> eye;    ///< homogeneous, object space; w is 1, or 0 where the projection is parallel
 };
 
 /// The light comes from the viewer's side, from above and a little from the left.

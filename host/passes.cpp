@@ -25,14 +25,16 @@ void Passes::prepare(const Plan& plan) {
 Buffer& Passes::buffer(std::string_view name, std::size_t bytes) {
   auto& buffer = buffers_[std::string(name)];
   if (!buffer || buffer->bytes() < bytes) {
-    if (buffer) device_.finish();   // what was recorded may use the old one
-    buffer.reset();                 // before the new one is made: both need not fit
+    if (buffer) device_.finish();  // what was recorded may use the old one
+    buffer.reset();                // before the new one is made: both need not fit
     buffer = device_.createBuffer(bytes, name);
   }
   return *buffer;
 }
 
-void Passes::overElements(std::string_view stage, std::uint64_t elements) { overGroups(stage, (elements + kLanes - 1) / kLanes); }
+void Passes::overElements(std::string_view stage, std::uint64_t elements) {
+  overGroups(stage, (elements + kLanes - 1) / kLanes);
+}
 
 void Passes::overGroups(std::string_view stage, std::uint64_t groups) {
   const Kernel& kernel = *kernels_.find(stage)->second;

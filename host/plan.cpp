@@ -35,16 +35,23 @@ Bounds boundsOf(const std::vector<glm::vec3>& positions) {
 }
 
 /// One of the contract's six distances, and how large its terms were: the measure of its rounding error.
-struct Distance { double value, size; };
-std::array<Distance, 6> distances(const std::array<double, 4>& p, const std::array<double, 4>& size, double guardX, double guardY) {
+struct Distance {
+  double value, size;
+};
+std::array<Distance, 6> distances(const std::array<double, 4>& p, const std::array<double, 4>& size, double guardX,
+                                  double guardY) {
   const auto [x, y, z, w] = p;
   const auto [sx, sy, sz, sw] = size;
-  return {{{z, sz}, {w - z, sw + sz}, {guardX * w + x, guardX * sw + sx}, {guardX * w - x, guardX * sw + sx},
-           {guardY * w + y, guardY * sw + sy}, {guardY * w - y, guardY * sw + sy}}};
+  return {{{z, sz},
+           {w - z, sw + sz},
+           {guardX * w + x, guardX * sw + sx},
+           {guardX * w - x, guardX * sw + sx},
+           {guardY * w + y, guardY * sw + sy},
+           {guardY * w - y, guardY * sw + sy}}};
 }
 
-/// Whether the contract's float32 arithmetic may find this point of object space outside a clip plane. Transform and distance round a handful
-/// of times, each by 2^-24 of the terms: 1e-5 of their sum is ample.
+/// Whether the contract's float32 arithmetic may find this point of object space outside a clip plane. Transform and
+/// distance round a handful of times, each by 2^-24 of the terms: 1e-5 of their sum is ample.
 bool mayBeOutside(const Matrix& m, const std::array<double, 3>& point, double guardX, double guardY) {
   std::array<double, 4> p{}, size{};
   for (int row = 0; row < 4; ++row) {
@@ -56,7 +63,8 @@ bool mayBeOutside(const Matrix& m, const std::array<double, 3>& point, double gu
     p[row] += m[4 * row + 3];
     size[row] += std::abs(m[4 * row + 3]);
   }
-  return std::ranges::any_of(distances(p, size, guardX, guardY), [](const Distance& d) { return !(d.value > 1e-5 * d.size); });
+  return std::ranges::any_of(distances(p, size, guardX, guardY),
+                             [](const Distance& d) { return !(d.value > 1e-5 * d.size); });
 }
 
 /// Whether a vertex of the scene may lie outside a clip plane.
@@ -67,11 +75,13 @@ bool mayCross(const Scene& scene) {
       // Given, not computed: only the distance itself rounds, and 0 is inside.
       const std::array<double, 4> p{c.x, c.y, c.z, c.w};
       const bool finite = std::ranges::all_of(p, [](double v) { return std::isfinite(v); });
-      return finite && std::ranges::any_of(distances(p, {}, guardX * (1 - 1e-6), guardY * (1 - 1e-6)), [](const Distance& d) { return d.value < 0; });
+      return finite && std::ranges::any_of(distances(p, {}, guardX * (1 - 1e-6), guardY * (1 - 1e-6)),
+                                           [](const Distance& d) { return d.value < 0; });
     });
   const Bounds bounds = boundsOf(scene.positions);
   if (bounds.empty) return false;
-  // The planes bound a convex part of object space: if it holds the corners of the box, it holds the scene. Else each vertex is looked at.
+  // The planes bound a convex part of object space: if it holds the corners of the box, it holds the scene. Else each
+  // vertex is looked at.
   const auto corner = [&](int c) {
     std::array<double, 3> p{};
     for (int i = 0; i < 3; ++i) p[i] = (c >> i) & 1 ? bounds.high[i] : bounds.low[i];
@@ -85,7 +95,8 @@ bool mayCross(const Scene& scene) {
   });
 }
 
-/// Whether every vertex that setup keeps has w = 1 exactly: 0 x is 0 for a finite x, and where x is not finite w is NaN.
+/// Whether every vertex that setup keeps has w = 1 exactly: 0 x is 0 for a finite x, and where x is not finite w is
+/// NaN.
 bool isOrthographic(const Scene& scene) {
   if (scene.positions.empty()) return std::ranges::all_of(scene.clip, [](const glm::vec4& c) { return c.w == 1.0f; });
   const Matrix& m = scene.clipFromObject;
@@ -98,7 +109,8 @@ class Planner {
       : scene_(scene), asked_(asked), device_(device), full_(asked.get("plan", "planned") == "full") {}
 
   Plan run() {
-    if (!device_.int64) failUnsupported(fmt::format("{}: the kernels need 64-bit integers in shaders (shaderInt64)", device_.name));
+    if (!device_.int64)
+      failUnsupported(fmt::format("{}: the kernels need 64-bit integers in shaders (shaderInt64)", device_.name));
     choose("plan", "planned");
     route();
     geometry();
@@ -117,35 +129,44 @@ class Planner {
     plan_.resolved.set(axis, value);
     return value;
   }
-  void note(std::string pass, bool kept, std::string why) { plan_.entries.push_back({std::move(pass), kept, std::move(why)}); }
+  void note(std::string pass, bool kept, std::string why) {
+    plan_.entries.push_back({std::move(pass), kept, std::move(why)});
+  }
 
   void route() {
     const bool cpu = device_.api == "cpu";
     const std::string value = choose("route", cpu ? "cpp" : "spirv");
     if (cpu != (value == "cpp"))
-      failUnsupported(fmt::format("route={}: the {} device takes {}", value, device_.api, cpu ? "route=cpp" : "route=spirv or route=glsl"));
+      failUnsupported(fmt::format("route={}: the {} device takes {}", value, device_.api,
+                                  cpu ? "route=cpp" : "route=spirv or route=glsl"));
   }
 
   void geometry() {
     plan_.transform = !scene_.positions.empty();
-    note("transform", plan_.transform, plan_.transform ? "positions are in object space" : "positions are given in clip space");
+    note("transform", plan_.transform,
+         plan_.transform ? "positions are in object space" : "positions are given in clip space");
     note("project", true, "vertices are snapped once each");
     note("setup", true, "triangles become snapped, oriented pieces");
 
     const bool crosses = mayCross(scene_);
     plan_.clip = choose("clip", full_ || crosses ? "on" : "off") == "on";
-    if (!plan_.clip && crosses) failUsage("clip=off: triangles of this scene may cross a clip plane; leave clip unset, or set clip=on");
-    note("setup: clip", plan_.clip, crosses ? "a triangle may cross a clip plane" : "no triangle can cross a clip plane");
+    if (!plan_.clip && crosses)
+      failUsage("clip=off: triangles of this scene may cross a clip plane; leave clip unset, or set clip=on");
+    note("setup: clip", plan_.clip,
+         crosses ? "a triangle may cross a clip plane" : "no triangle can cross a clip plane");
 
     const bool orthographic = isOrthographic(scene_);
     plan_.perspective = choose("projection", full_ || !orthographic ? "perspective" : "orthographic") == "perspective";
-    if (!plan_.perspective && !orthographic) failUsage("projection=orthographic: w is not 1 at every vertex of this scene; leave projection unset");
+    if (!plan_.perspective && !orthographic)
+      failUsage("projection=orthographic: w is not 1 at every vertex of this scene; leave projection unset");
     note("project: perspective division", plan_.perspective, orthographic ? "w is 1 at every vertex" : "w varies");
 
     const std::string cull = choose("cull", "none");
     note("setup: cull by facing", cull != "none", cull == "none" ? "not asked for (cull)" : "cull=" + cull);
     const bool between = choose("between-samples", full_ ? "off" : "on") == "on";
-    note("setup: drop between samples", between, between ? "a piece without a sample in its box need not be binned" : "asked to go without (between-samples, plan)");
+    note("setup: drop between samples", between,
+         between ? "a piece without a sample in its box need not be binned"
+                 : "asked to go without (between-samples, plan)");
   }
 
   void bins() {
@@ -160,7 +181,10 @@ class Planner {
     const double mean = 4.0 * double(scene_.triangles.size()) / tiles;
     choose("capacity", std::to_string(std::bit_ceil(static_cast<unsigned>(std::clamp(mean, 16.0, 32768.0)))));
     choose("overflow", "retry");
-    note("bin-count, scan", binning == "exact", binning == "exact" ? "bins are sized by counting first" : binned_ ? "queues have a fixed capacity; only a retry counts and scans" : "no bins (binning=none)");
+    note("bin-count, scan", binning == "exact",
+         binning == "exact" ? "bins are sized by counting first"
+         : binned_          ? "queues have a fixed capacity; only a retry counts and scans"
+                            : "no bins (binning=none)");
     note("bin-insert", binned_, binned_ ? "pieces go to the tiles that they touch" : "no bins (binning=none)");
   }
 
@@ -168,17 +192,25 @@ class Planner {
     const bool atomics64 = device_.int64 && device_.atomicMin64;
     const std::string value = choose("commit", binned_ ? "tile-owned" : atomics64 ? "depth32+id32" : "two-pass");
     if (value == "tile-owned" && !binned_)
-      failUsage("commit=tile-owned: needs bins, and binning=none has none; set binning=exact or queue, or commit=depth32+id32 or two-pass");
+      failUsage(
+          "commit=tile-owned: needs bins, and binning=none has none; set binning=exact or queue, or "
+          "commit=depth32+id32 or two-pass");
     if (value == "depth32+id32" && !atomics64)
-      failUnsupported(fmt::format("commit=depth32+id32: {} has no 64-bit atomic min on buffers (shaderBufferInt64Atomics); set commit=two-pass", device_.name));
+      failUnsupported(fmt::format(
+          "commit=depth32+id32: {} has no 64-bit atomic min on buffers (shaderBufferInt64Atomics); set commit=two-pass",
+          device_.name));
     const std::uint64_t groupMemory = tileOwnedBytes(std::stoul(plan_.resolved.get("tile")));
     if (value == "tile-owned" && groupMemory > device_.maxGroupBytes)
-      failUnsupported(fmt::format("tile={}: tile-owned takes {} bytes of group memory, {} has {}; set a smaller tile", plan_.resolved.get("tile"),
-                                  groupMemory, device_.name, device_.maxGroupBytes));
+      failUnsupported(fmt::format("tile={}: tile-owned takes {} bytes of group memory, {} has {}; set a smaller tile",
+                                  plan_.resolved.get("tile"), groupMemory, device_.name, device_.maxGroupBytes));
     plan_.clear = full_ || value != "tile-owned";
-    note("clear", plan_.clear, value != "tile-owned" ? "atomics compare with what the frame holds" : full_ ? "plan=full" : "each tile writes all of its own pixels");
+    note("clear", plan_.clear,
+         value != "tile-owned" ? "atomics compare with what the frame holds"
+         : full_               ? "plan=full"
+                               : "each tile writes all of its own pixels");
     note(binned_ ? "raster-tiles" : "raster-items", true, binned_ ? "a group a tile" : "a lane a work item");
-    note("resolve", value == "depth32+id32", value == "depth32+id32" ? "packed words become depth and ids" : "depth and ids are written as they are");
+    note("resolve", value == "depth32+id32",
+         value == "depth32+id32" ? "packed words become depth and ids" : "depth and ids are written as they are");
   }
 
   /// Depth and id of each pixel.
@@ -187,10 +219,12 @@ class Planner {
   void shading() {
     const std::string shade = choose("shade", "none");
     plan_.shade = shade != "none";
-    if (plan_.shade && plan_.resolved.get("commit") == "count") failUsage("shade=" + shade + ": commit=count keeps no ids to shade; set shade=none");
+    if (plan_.shade && plan_.resolved.get("commit") == "count")
+      failUsage("shade=" + shade + ": commit=count keeps no ids to shade; set shade=none");
     if ((shade == "flat" || shade == "smooth") && scene_.positions.empty() && !scene_.triangles.empty())
       failUsage("shade=" + shade + ": the scene has clip-space positions only; set shade=id");
-    if (shade == "smooth" && scene_.normals.size() != scene_.positions.size()) failUsage("shade=smooth: the scene has no vertex normals; set shade=flat");
+    if (shade == "smooth" && scene_.normals.size() != scene_.positions.size())
+      failUsage("shade=smooth: the scene has no vertex normals; set shade=flat");
     note("shade", plan_.shade, plan_.shade ? "shade=" + shade : "no colours asked for (shade)");
     note("attributes", shade == "smooth", shade == "smooth" ? "normals are interpolated" : "nothing interpolates them");
   }
@@ -207,7 +241,8 @@ class Planner {
 
 Plan makePlan(const Scene& scene, const Variant& variant, const DeviceInfo& device) {
   if (scene.width == 0 || scene.height == 0 || scene.width > kMaxExtent || scene.height > kMaxExtent)
-    failUsage(fmt::format("size {}x{}: width and height go from 1 to {} pixels", scene.width, scene.height, kMaxExtent));
+    failUsage(
+        fmt::format("size {}x{}: width and height go from 1 to {} pixels", scene.width, scene.height, kMaxExtent));
   return Planner(scene, variant, device).run();
 }
 

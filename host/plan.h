@@ -11,14 +11,14 @@
 namespace tessera {
 
 struct PlanEntry {
-  std::string pass;     ///< a pass or a switch of one
+  std::string pass;  ///< a pass or a switch of one
   bool kept = true;
-  std::string why;      ///< one line
+  std::string why;  ///< one line
 };
 
 struct Plan {
-  std::vector<PlanEntry> entries;   ///< in pipeline order
-  Variant resolved;                 ///< a value for every axis
+  std::vector<PlanEntry> entries;  ///< in pipeline order
+  Variant resolved;                ///< a value for every axis
   bool transform = true, clip = true, perspective = true, clear = true, shade = false;
 };
 

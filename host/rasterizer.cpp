@@ -15,17 +15,22 @@
 namespace tessera {
 namespace {
 
-constexpr std::uint64_t kCornerBytes = 16, kPieceBytes = 40, kItemBytes = 8;   // slang/layout.slang: Corner, Piece, Item
-constexpr std::uint64_t kMaxWord = 0xffffffff;              // kernels index with 32 bits
-constexpr std::uint32_t kBlock = 64;                        // pixels; bands begin on a row of blocks, and so of cells and tiles
-constexpr std::uint32_t kScanBlock = 1024;                  // slang/rasterizer/scan.slang: kBlock
-constexpr std::uint32_t kClippedPieces = 26;                // slang/rasterizer/clip.slang: kMaxCorners - 2
-constexpr std::uint64_t kSetupLoops = 1024;                 // iterations of a lane of setup beside its walks over blocks: at most 28 corners at six planes, 78 projected
+constexpr std::uint64_t kCornerBytes = 16, kPieceBytes = 40, kItemBytes = 8;  // slang/layout.slang: Corner, Piece, Item
+constexpr std::uint64_t kMaxWord = 0xffffffff;                                // kernels index with 32 bits
+constexpr std::uint32_t kBlock = 64;          // pixels; bands begin on a row of blocks, and so of cells and tiles
+constexpr std::uint32_t kScanBlock = 1024;    // slang/rasterizer/scan.slang: kBlock
+constexpr std::uint32_t kClippedPieces = 26;  // slang/rasterizer/clip.slang: kMaxCorners - 2
+constexpr std::uint64_t kSetupLoops =
+    1024;  // iterations of a lane of setup beside its walks over blocks: at most 28 corners at six planes, 78 projected
 
 std::uint64_t ceilDivide(std::uint64_t a, std::uint64_t b) { return (a + b - 1) / b; }
 
-struct Band { std::uint32_t begin, end; };
-struct Batch { std::size_t first, count; };
+struct Band {
+  std::uint32_t begin, end;
+};
+struct Batch {
+  std::size_t first, count;
+};
 
 /// One call of render().
 class FrameRun {
@@ -62,7 +67,9 @@ class FrameRun {
   std::string value(std::string_view axis) const { return frame_.plan.resolved.get(axis); }
   std::uint64_t pixels() const { return std::uint64_t{scene_.width} * (band_.end - band_.begin); }
   /// Iterations that a lane has left beside `fixed` ones.
-  std::uint64_t loopsBeyond(std::uint64_t fixed) const { return info_.maxLoopIterations > fixed ? info_.maxLoopIterations - fixed : 0; }
+  std::uint64_t loopsBeyond(std::uint64_t fixed) const {
+    return info_.maxLoopIterations > fixed ? info_.maxLoopIterations - fixed : 0;
+  }
   bool fits(std::uint64_t bytes) const { return bytes <= info_.maxBufferBytes; }
 
   // ---- what does not depend on the band
@@ -70,19 +77,27 @@ class FrameRun {
   void upload() {
     const std::size_t vertices = scene_.vertexCount();
     if (!fits(vertices * sizeof(glm::vec4)))
-      failUnsupported(fmt::format("{}: {} vertices take {} bytes in clip space, its largest buffer holds {}", info_.name, vertices,
-                                  vertices * sizeof(glm::vec4), info_.maxBufferBytes));
+      failUnsupported(fmt::format("{}: {} vertices take {} bytes in clip space, its largest buffer holds {}",
+                                  info_.name, vertices, vertices * sizeof(glm::vec4), info_.maxBufferBytes));
     passes_.set("vertexCount", static_cast<std::uint32_t>(vertices));
     passes_.set("width", scene_.width);
-    const float halfWidth = static_cast<float>(scene_.width) * 0.5f, halfHeight = static_cast<float>(scene_.height) * 0.5f;
+    const float halfWidth = static_cast<float>(scene_.width) * 0.5f,
+                halfHeight = static_cast<float>(scene_.height) * 0.5f;
     passes_.set("halfWidth", halfWidth);
     passes_.set("halfHeight", halfHeight);
     passes_.set("guardX", 32767.0f / halfWidth);
     passes_.set("guardY", 32767.0f / halfHeight);
     for (int row = 0; row < 4; ++row)
-      for (int column = 0; column < 4; ++column) passes_.set(fmt::format("m{}{}", row, column), scene_.clipFromObject[4 * row + column]);
+      for (int column = 0; column < 4; ++column)
+        passes_.set(fmt::format("m{}{}", row, column), scene_.clipFromObject[4 * row + column]);
     const auto [light, eye] = lightingOf(scene_.clipFromObject);
-    for (const auto& [field, value] : {std::pair{"lightX", light[0]}, {"lightY", light[1]}, {"lightZ", light[2]}, {"eyeX", eye[0]}, {"eyeY", eye[1]}, {"eyeZ", eye[2]}, {"eyeW", eye[3]}})
+    for (const auto& [field, value] : {std::pair{"lightX", light[0]},
+                                       {"lightY", light[1]},
+                                       {"lightZ", light[2]},
+                                       {"eyeX", eye[0]},
+                                       {"eyeY", eye[1]},
+                                       {"eyeZ", eye[2]},
+                                       {"eyeW", eye[3]}})
       passes_.set(field, value);
     if (frame_.plan.transform) {
       passes_.write("positions", scene_.positions);
@@ -93,12 +108,14 @@ class FrameRun {
     passes_.buffer("corners", vertices * kCornerBytes);
     if (value("shade") == "smooth") passes_.write("normals", scene_.normals);
     passes_.buffer("counters", 8 * kernelCounterCount());
-    for (const char* field : {"triangleCount", "triangleBase", "extraCapacity", "itemCapacity", "extraCount", "itemCount", "entryCapacity", "queueCapacity", "entryBegin", "entryRange", "loadFrame", "commitPass", "scanCount", "scanTop"})
+    for (const char* field :
+         {"triangleCount", "triangleBase", "extraCapacity", "itemCapacity", "extraCount", "itemCount", "entryCapacity",
+          "queueCapacity", "entryBegin", "entryRange", "loadFrame", "commitPass", "scanCount", "scanTop"})
       passes_.set(field, 0u);
   }
 
-  /// Bands of rows whose frame buffers fit the device, and whose blocks a lane of setup can walk within the device's loop limit:
-  /// twice the blocks for each piece of a triangle.
+  /// Bands of rows whose frame buffers fit the device, and whose blocks a lane of setup can walk within the device's
+  /// loop limit: twice the blocks for each piece of a triangle.
   std::vector<Band> cutBands() {
     const std::uint64_t pixelBytes = value("shade") != "none" ? 12 : commit_ == "depth32+id32" ? 8 : 4;
     const std::uint64_t blocksAcross = ceilDivide(scene_.width, kBlock);
@@ -106,10 +123,12 @@ class FrameRun {
     // Each loop's last test counts as an iteration; what is clipped and what is not follow one another in one subgroup.
     const std::uint64_t walks = 2 * (frame_.plan.clip ? kClippedPieces + 1 : 1);
     const std::uint64_t byLoops = loopsBeyond(kSetupLoops) / (walks * (blocksAcross + 2));
-    const std::uint64_t rows = std::min<std::uint64_t>(std::max<std::uint64_t>(std::min(byBytes, byLoops), 1) * kBlock, scene_.height);
+    const std::uint64_t rows =
+        std::min<std::uint64_t>(std::max<std::uint64_t>(std::min(byBytes, byLoops), 1) * kBlock, scene_.height);
     std::vector<Band> bands;
     for (std::uint64_t begin = 0; begin < scene_.height; begin += rows)
-      bands.push_back({static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(std::min<std::uint64_t>(begin + rows, scene_.height))});
+      bands.push_back({static_cast<std::uint32_t>(begin),
+                       static_cast<std::uint32_t>(std::min<std::uint64_t>(begin + rows, scene_.height))});
     return bands;
   }
 
@@ -127,8 +146,10 @@ class FrameRun {
     const bool fitted = std::ranges::all_of(batches_, [&](const Batch& b) { return fits(b.count * kPieceBytes); });
     if (!fitted) return false;
     for (std::size_t b = 0; b < batches_.size(); ++b)
-      passes_.write<Triangle>(trianglesOf(b), std::span(scene_.triangles).subspan(batches_[b].first, batches_[b].count));
-    device_.takeTimes();   // a band that starts again is timed from its last start; what was lost to finding the cut is upload
+      passes_.write<Triangle>(trianglesOf(b),
+                              std::span(scene_.triangles).subspan(batches_[b].first, batches_[b].count));
+    device_.takeTimes();  // a band that starts again is timed from its last start; what was lost to finding the cut is
+                          // upload
 
     counted_.clear();
     clear();
@@ -143,7 +164,7 @@ class FrameRun {
           if (!prepareBatch(only && pass == 0 && batches_.size() == 1)) return false;
         raster(b == 0);
         const bool last = pass + 1 == commitPasses;
-        if (last || batches_.size() > 1) countBatch(last);   // else the counters go on over the passes
+        if (last || batches_.size() > 1) countBatch(last);  // else the counters go on over the passes
       }
     if (commit_ == "depth32+id32") passes_.overElements("resolve", pixels());
     device_.finish();
@@ -171,7 +192,9 @@ class FrameRun {
   void halveBatches() {
     std::vector<Batch> halves;
     for (const Batch& b : batches_) {
-      if (b.count < 2) failUnsupported(fmt::format("{}: one triangle needs a buffer larger than its largest, {} bytes", info_.name, info_.maxBufferBytes));
+      if (b.count < 2)
+        failUnsupported(fmt::format("{}: one triangle needs a buffer larger than its largest, {} bytes", info_.name,
+                                    info_.maxBufferBytes));
       halves.push_back({b.first, b.count / 2});
       halves.push_back({b.first + b.count / 2, b.count - b.count / 2});
     }
@@ -198,7 +221,9 @@ class FrameRun {
     return binning_ == "none" || (binning_ == "exact" ? binExact() : binQueue());
   }
 
-  std::vector<std::uint32_t> readCounters() { return passes_.read<std::uint32_t>("counters", 2 * kernelCounterCount()); }
+  std::vector<std::uint32_t> readCounters() {
+    return passes_.read<std::uint32_t>("counters", 2 * kernelCounterCount());
+  }
   static std::uint64_t count(const std::vector<std::uint32_t>& words, std::string_view name) {
     const std::size_t i = counterIndex(name);
     return words[2 * i] | std::uint64_t{words[2 * i + 1]} << 32;
@@ -210,7 +235,9 @@ class FrameRun {
     std::uint64_t extras = frame_.plan.clip ? std::max<std::uint64_t>(1024, triangles / 16) : 0;
     std::uint64_t items = std::max<std::uint64_t>(4096, triangles / 16);
     for (;;) {
-      if (!fits((triangles + extras) * kPieceBytes) || !fits(items * kItemBytes) || triangles + extras + items > kMaxWord) return false;
+      if (!fits((triangles + extras) * kPieceBytes) || !fits(items * kItemBytes) ||
+          triangles + extras + items > kMaxWord)
+        return false;
       passes_.buffer("pieces", (triangles + extras) * kPieceBytes);
       passes_.buffer("items", items * kItemBytes);
       passes_.set("extraCapacity", static_cast<std::uint32_t>(extras));
@@ -225,7 +252,8 @@ class FrameRun {
       if (extraCount <= extras && itemCount <= items) return true;
       extras = std::max(extras, extraCount);
       items = std::max(items, itemCount);
-      if (extraCount > passes_.get("extraCapacity")) items = std::max(items, itemCount + itemCount / 4);   // what did not fit had no items counted
+      if (extraCount > passes_.get("extraCapacity"))
+        items = std::max(items, itemCount + itemCount / 4);  // what did not fit had no items counted
       ++counted_["retries"];
     }
   }
@@ -236,8 +264,12 @@ class FrameRun {
   void scanTileCounts() {
     std::vector<std::uint64_t> counts{tiles()};
     while (counts.back() > kScanBlock) counts.push_back(ceilDivide(counts.back(), kScanBlock));
-    const auto in = [](std::size_t level) { return level == 0 ? std::string("tileCounts") : fmt::format("sums {}", level); };
-    const auto out = [](std::size_t level) { return level == 0 ? std::string("offsets") : fmt::format("scanned sums {}", level); };
+    const auto in = [](std::size_t level) {
+      return level == 0 ? std::string("tileCounts") : fmt::format("sums {}", level);
+    };
+    const auto out = [](std::size_t level) {
+      return level == 0 ? std::string("offsets") : fmt::format("scanned sums {}", level);
+    };
     const auto use = [&](std::size_t level) {
       passes_.buffer(out(level), 4 * (counts[level] + 1));
       passes_.buffer(in(level + 1), 4 * ceilDivide(counts[level], kScanBlock));
@@ -295,9 +327,12 @@ class FrameRun {
 
   bool binQueue() {
     const std::uint64_t capacity = std::stoul(value("capacity"));
-    if (!fits(tiles() * capacity * 4) || tiles() * capacity > kMaxWord)   // kernels have 32 bits for the place of an entry
-      failUnsupported(fmt::format("capacity={}: {} tiles of it take {} bytes, the largest buffer of {} holds {}; set a smaller capacity or a larger tile",
-                                  capacity, tiles(), tiles() * capacity * 4, info_.name, info_.maxBufferBytes));
+    if (!fits(tiles() * capacity * 4) ||
+        tiles() * capacity > kMaxWord)  // kernels have 32 bits for the place of an entry
+      failUnsupported(
+          fmt::format("capacity={}: {} tiles of it take {} bytes, the largest buffer of {} holds {}; set a smaller "
+                      "capacity or a larger tile",
+                      capacity, tiles(), tiles() * capacity * 4, info_.name, info_.maxBufferBytes));
     passes_.buffer("tileCounts", tiles() * 4);
     passes_.set("queueCapacity", static_cast<std::uint32_t>(capacity));
     insert(tiles() * capacity);
@@ -308,7 +343,9 @@ class FrameRun {
       return true;
     }
     if (value("overflow") == "error")
-      throw Error(ExitCode::kOverflow, fmt::format("capacity={}: {} bin entries did not fit; set overflow=retry or a larger capacity", capacity, overflowed));
+      throw Error(ExitCode::kOverflow,
+                  fmt::format("capacity={}: {} bin entries did not fit; set overflow=retry or a larger capacity",
+                              capacity, overflowed));
     ++counted_["retries"];
     passes_.zero("counters", 2, 2 * counterIndex("overflowed"));
     return insertCounted();
@@ -321,8 +358,9 @@ class FrameRun {
       passes_.overElements("raster-items", work_);
       return;
     }
-    // Iterations of a lane: three walks over the tile's cells with the loop over lanes of each, to clear, load and store; and for each entry its
-    // rows, their cells, and the lanes of each. A loop of n takes n + 1: lavapipe counts its last test, too.
+    // Iterations of a lane: three walks over the tile's cells with the loop over lanes of each, to clear, load and
+    // store; and for each entry its rows, their cells, and the lanes of each. A loop of n takes n + 1: lavapipe counts
+    // its last test, too.
     const std::uint64_t across = tile_ / 8, cells = across * across;
     const std::uint64_t each = 3 * cells + 2 * across + 2, fixed = 9 * cells + 16;
     const std::uint64_t range = std::max<std::uint64_t>(loopsBeyond(fixed) / each, 1);
@@ -365,12 +403,15 @@ class FrameRun {
 
   /// Causes that belong to a triangle, whatever the band, count once.
   void addCounts() {
-    constexpr std::array<std::string_view, 8> once{"badIndex", "nonFinite", "clipped", "outside", "behind", "zeroArea", "facing", "betweenSamples"};
+    constexpr std::array<std::string_view, 8> once{"badIndex", "nonFinite", "clipped", "outside",
+                                                   "behind",   "zeroArea",  "facing",  "betweenSamples"};
     counted_["batches"] = batches_.size();
     for (const auto& [name, value] : counted_) {
       auto& sum = frame_.counters[name];
-      if (name == "largestBin" || name == "batches") sum = std::max(sum, value);
-      else if (band_.begin == 0 || std::ranges::find(once, name) == once.end()) sum += value;
+      if (name == "largestBin" || name == "batches")
+        sum = std::max(sum, value);
+      else if (band_.begin == 0 || std::ranges::find(once, name) == once.end())
+        sum += value;
     }
   }
 
@@ -387,9 +428,11 @@ class FrameRun {
       }
   }
 
-  template <typename T> void append(std::vector<T>& whole, std::string_view name) {
+  template <typename T>
+  void append(std::vector<T>& whole, std::string_view name) {
     const std::vector<T> rows = passes_.read<T>(name, pixels());
-    if (whole.empty() && rows.size() < std::size_t{scene_.width} * scene_.height) whole.reserve(std::size_t{scene_.width} * scene_.height);
+    if (whole.empty() && rows.size() < std::size_t{scene_.width} * scene_.height)
+      whole.reserve(std::size_t{scene_.width} * scene_.height);
     whole.insert(whole.end(), rows.begin(), rows.end());
   }
 
@@ -424,7 +467,8 @@ class FrameRun {
       std::ranges::copy(piece, extras.emplace_back().begin());
     }
     std::ranges::sort(extras);
-    if (!extras.empty()) std::memcpy(pieces.data() + words * passes_.get("triangleCount"), extras.data(), extras.size() * kPieceBytes);
+    if (!extras.empty())
+      std::memcpy(pieces.data() + words * passes_.get("triangleCount"), extras.data(), extras.size() * kPieceBytes);
     keep("setup", "piece, x0 y0 x1 y1 x2 y2 z0 z1 z2 id", words, std::move(pieces));
   }
 
@@ -444,11 +488,11 @@ class FrameRun {
   std::uint32_t tile_ = kBlock, tilesX_ = 0, tilesY_ = 0;
   Band band_{};
   std::vector<Batch> batches_;
-  std::uint64_t work_ = 0;          // lanes of binning and of raster by items
-  std::uint64_t largestBin_ = 0;    // entries of the fullest tile, or a bound on it
-  std::optional<std::uint64_t> binned_;   // of the batch; empty: in queues, not counted yet
-  Counters counted_;                // of the band
-  std::vector<StageTime> times_;    // of the band, shading apart
+  std::uint64_t work_ = 0;               // lanes of binning and of raster by items
+  std::uint64_t largestBin_ = 0;         // entries of the fullest tile, or a bound on it
+  std::optional<std::uint64_t> binned_;  // of the batch; empty: in queues, not counted yet
+  Counters counted_;                     // of the band
+  std::vector<StageTime> times_;         // of the band, shading apart
 };
 
 }  // namespace

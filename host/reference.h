@@ -13,7 +13,9 @@ namespace tessera::reference {
 
 /// The image-defining axes. Further values join here as the axes of variant.h gain them.
 enum class Cull { kNone, kBack, kFront };
-struct Image { Cull cull = Cull::kNone; };
+struct Image {
+  Cull cull = Cull::kNone;
+};
 
 /// One oriented, snapped piece, as it enters coverage. Positions in 1/256 pixel.
 struct Piece {
@@ -22,24 +24,26 @@ struct Piece {
   float z[3];
 };
 
-/// A triangle is in at most one of badIndex, nonFinite and outside; a piece in at most one of behind, zeroArea and facing.
+/// A triangle is in at most one of badIndex, nonFinite and outside; a piece in at most one of behind, zeroArea and
+/// facing.
 struct Counts {
   std::uint64_t submitted = 0;  ///< triangles
   std::uint64_t badIndex = 0;   ///< triangles with an index out of range
   std::uint64_t nonFinite = 0;  ///< triangles with a clip coordinate that is not finite
   std::uint64_t outside = 0;    ///< triangles of which nothing is inside the clip planes
   std::uint64_t clipped = 0;    ///< triangles with a vertex outside a clip plane, those of `outside` among them
-  std::uint64_t behind = 0;     ///< pieces with a w that is not > 0, a 1/w that is not finite, or a position that overflowed
-  std::uint64_t zeroArea = 0;   ///< pieces
-  std::uint64_t facing = 0;     ///< pieces
-  std::uint64_t covered = 0;    ///< samples, each hit counted
+  std::uint64_t behind =
+      0;  ///< pieces with a w that is not > 0, a 1/w that is not finite, or a position that overflowed
+  std::uint64_t zeroArea = 0;  ///< pieces
+  std::uint64_t facing = 0;    ///< pieces
+  std::uint64_t covered = 0;   ///< samples, each hit counted
 };
 
 struct Result {
-  Framebuffer image;                     ///< depth and ids, in the contract's float32 order; and hits (all vectors are filled)
+  Framebuffer image;  ///< depth and ids, in the contract's float32 order; and hits (all vectors are filled)
   Counts counts;
-  double depthMaxAbs = 0;                ///< largest |float32 depth - exact depth of the snapped piece| over the visible pixels
-  double depthMaxUlp = 0;                ///< the same in units of the last place of the exact value
+  double depthMaxAbs = 0;  ///< largest |float32 depth - exact depth of the snapped piece| over the visible pixels
+  double depthMaxUlp = 0;  ///< the same in units of the last place of the exact value
 };
 
 /// float32 clip positions of a scene by the contract's transform, or its given ones.

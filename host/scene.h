@@ -10,8 +10,8 @@
 
 namespace tessera {
 
-using Triangle = std::array<std::uint32_t, 3>;   ///< vertex indices; may be out of range, the pipeline counts those
-using Matrix = std::array<float, 16>;            ///< row-major
+using Triangle = std::array<std::uint32_t, 3>;  ///< vertex indices; may be out of range, the pipeline counts those
+using Matrix = std::array<float, 16>;           ///< row-major
 
 inline constexpr Matrix kIdentity{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
 inline constexpr std::uint32_t kMaxExtent = 32768;  ///< largest width and height, pixels
@@ -21,11 +21,11 @@ inline constexpr std::uint32_t kMaxExtent = 32768;  ///< largest width and heigh
 /// Exactly one of `positions` and `clip` is filled (both are empty in an empty scene).
 struct Scene {
   std::string name;
-  std::uint32_t width = 1024;                ///< pixels, 1 to kMaxExtent
-  std::uint32_t height = 1024;               ///< pixels, 1 to kMaxExtent
-  std::vector<glm::vec3> positions;          ///< object space
-  std::vector<glm::vec4> clip;               ///< clip space, given as they are (replay files, tests): no transform runs
-  std::vector<glm::vec3> normals;            ///< empty, or unit length, one a vertex, object space
+  std::uint32_t width = 1024;        ///< pixels, 1 to kMaxExtent
+  std::uint32_t height = 1024;       ///< pixels, 1 to kMaxExtent
+  std::vector<glm::vec3> positions;  ///< object space
+  std::vector<glm::vec4> clip;       ///< clip space, given as they are (replay files, tests): no transform runs
+  std::vector<glm::vec3> normals;    ///< empty, or unit length, one a vertex, object space
   std::vector<Triangle> triangles;
   Matrix clipFromObject = kIdentity;
 

@@ -34,8 +34,10 @@ std::vector<std::string> stagesOf(const Plan& plan) {
   if (binning == "exact") names.push_back("bin-count");
   if (binning == "exact" || (binning == "queue" && v.get("overflow") == "retry"))
     names.insert(names.end(), {"scan-blocks", "scan-add"});
-  if (binning == "none") names.push_back("raster-items");
-  else names.insert(names.end(), {"bin-insert", "raster-tiles"});
+  if (binning == "none")
+    names.push_back("raster-items");
+  else
+    names.insert(names.end(), {"bin-insert", "raster-tiles"});
   if (commit == "depth32+id32") names.push_back("resolve");
   if (plan.shade) names.push_back("shade");
   return names;

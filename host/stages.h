@@ -11,8 +11,8 @@
 namespace tessera {
 
 struct Stage {
-  std::string name;     ///< as in Axis::stages, in plans, times and messages
-  std::string source;   ///< under slang/
+  std::string name;    ///< as in Axis::stages, in plans, times and messages
+  std::string source;  ///< under slang/
   std::string entry;
 };
 

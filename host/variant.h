@@ -18,21 +18,21 @@ const char* kindName(AxisKind kind);  ///< "image", "implementation", "approxima
 
 struct AxisValue {
   std::string name;
-  std::string meaning;                   ///< one line
-  std::string slang;                     ///< what the generated variant module says for it; empty: a host path
+  std::string meaning;  ///< one line
+  std::string slang;    ///< what the generated variant module says for it; empty: a host path
   AxisKind kind = AxisKind::kImplementation;
 };
 
 struct Axis {
   std::string name;
-  std::string meaning;                   ///< one line
-  std::string source;                    ///< paper or specification
-  std::vector<std::string> stages;       ///< kernels that read it, by stage name; empty: the host reads it
-  std::vector<AxisValue> values;         ///< empty: an integer from `least` to `most`
+  std::string meaning;              ///< one line
+  std::string source;               ///< paper or specification
+  std::vector<std::string> stages;  ///< kernels that read it, by stage name; empty: the host reads it
+  std::vector<AxisValue> values;    ///< empty: an integer from `least` to `most`
   long least = 0, most = 0;
-  std::string unset;                     ///< what the plan chooses when it is not set, in words
+  std::string unset;  ///< what the plan chooses when it is not set, in words
 
-  AxisKind kind() const;                 ///< implementation where any value is; its other values say so themselves
+  AxisKind kind() const;  ///< implementation where any value is; its other values say so themselves
 };
 
 /// All axes, in pipeline order.
@@ -53,7 +53,7 @@ class Variant {
   /// The value, or `otherwise` where it is not set.
   std::string get(std::string_view axis, std::string_view otherwise = "") const;
   const std::map<std::string, std::string>& values() const { return values_; }
-  std::string text() const;   ///< "axis=value axis=value" in axis order; "" when nothing is set
+  std::string text() const;  ///< "axis=value axis=value" in axis order; "" when nothing is set
 
  private:
   std::map<std::string, std::string> values_;
