@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
+#include <regex>
 #include <sstream>
 #include <stdexcept>
 
@@ -31,8 +32,10 @@ std::string readAll(const fs::path& path) {
 }  // namespace
 
 bool Outcome::complainsOnce() const {
-  return err.starts_with("tessera: ") && err.size() > 10 && std::count(err.begin(), err.end(), '\n') == 1 &&
-         err.back() == '\n';
+  static const std::regex progress(R"([a-z ]+ \d+/\d+[^\n]*, \d+ s(, about \d+ s left)?\n)");
+  const std::string said = std::regex_replace(err, progress, "");
+  return said.starts_with("tessera: ") && said.size() > 10 && std::count(said.begin(), said.end(), '\n') == 1 &&
+         said.back() == '\n';
 }
 
 Desk::Desk() : path_(makeFolder()), streams_(makeFolder()) {}

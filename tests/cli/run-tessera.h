@@ -11,7 +11,7 @@ struct Outcome {
   int code = -1;
   std::string out, err;
 
-  /// Exactly one line on stderr, which starts with the program's name.
+  /// Exactly one line on stderr, which starts with the program's name; but for progress, which a slow machine shows.
   bool complainsOnce() const;
 };
 
