@@ -1,3 +1,4 @@
+#define CATCH_CONFIG_EXTERNAL_INTERFACES  // before Catch2 comes in: a listener below
 #include "machines.h"
 
 #include <cstdlib>
@@ -28,8 +29,23 @@ Plan Machine::plan(const Scene& scene, Variant variant) const {
   return makePlan(scene, routed(std::move(variant)), info());
 }
 
+namespace {
+
+std::map<std::string, Machine> machines;
+
+/// Devices end with the tests, not with the program: what the Vulkan loader and its layers keep may be gone by then.
+struct Ending : Catch::TestEventListenerBase {
+  using TestEventListenerBase::TestEventListenerBase;
+  void testRunEnded(const Catch::TestRunStats& stats) override {
+    TestEventListenerBase::testRunEnded(stats);
+    machines.clear();
+  }
+};
+CATCH_REGISTER_LISTENER(Ending)
+
+}  // namespace
+
 Machine* machineAt(const std::string& place, const std::string& route) {
-  static std::map<std::string, Machine> machines;
   if (const auto found = machines.find(place); found != machines.end()) return &found->second;
   std::unique_ptr<Device> device;
   if (route == "cpp") {
