@@ -56,7 +56,7 @@ class FrameRun {
       batches_ = {{0, scene_.triangles.size()}};
       while (!renderBand(band, bands.size() == 1)) halveBatches();
       addTimes();
-      if (options_.readBack || bands.size() > 1) readBack(band);
+      if (options_.readBack) readBack();
     }
     frame_.counters["submitted"] = scene_.triangles.size();
     frame_.counters["bands"] = bands.size();
@@ -436,7 +436,7 @@ class FrameRun {
     whole.insert(whole.end(), rows.begin(), rows.end());
   }
 
-  void readBack(const Band&) {
+  void readBack() {
     Framebuffer& image = frame_.image;
     if (commit_ == "count") {
       append(image.hits, "hits");
