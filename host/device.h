@@ -20,6 +20,7 @@ struct DeviceInfo {
   unsigned threads = 0;                  ///< CPU device: threads in use; 0 on Vulkan
   bool correctnessOnly = false;          ///< a software Vulkan driver: its times say nothing about a GPU
   bool int64 = true;                     ///< 64-bit integers in kernels
+  bool float64 = true;                   ///< 64-bit floats in kernels
   bool atomicMin64 = true;               ///< 64-bit atomic min on storage buffers
   std::uint64_t maxBufferBytes = ~0ull;  ///< largest storage buffer that a kernel can bind
   std::uint32_t maxLoopIterations =

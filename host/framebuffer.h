@@ -7,6 +7,8 @@
 
 namespace tessera {
 
+inline constexpr std::uint32_t kUnknownTriangle =
+    0xfffffffeu;  ///< covered, by a commit that keeps no ids (depth32+rgba8, depth24+lum8)
 inline constexpr std::uint32_t kNoTriangle = 0xffffffffu;  ///< id of an empty pixel; its depth is 1.0
 
 /// Row-major, row 0 at the top, width * height elements in each vector that is not empty.

@@ -126,7 +126,8 @@ struct KernelCache::State {
     add(kFormat);
     add(request.source);
     add(request.entry);
-    add(request.variantModule);
+    add(request.modules.settings);
+    add(request.modules.variant);
     add(settings.slangc.version);
     for (const std::string& flag : slangFlags(request.route)) add(flag);
     for (const auto& [path, text] : sources) add(path.lexically_relative(settings.slangSources).string()), add(text);
@@ -182,7 +183,7 @@ KernelCache::~KernelCache() = default;
 CompiledKernel KernelCache::get(const KernelRequest& request) {
   const CompileSettings settings = state_->settings(request.route);
   const auto sources =
-      slangSources(settings.slangSources, settings.slangSources / request.source, request.variantModule);
+      slangSources(settings.slangSources, settings.slangSources / request.source, request.modules.text());
   const std::string hash = state_->key(request, settings, sources);
   const fs::path entry = state_->options.folder / hash.substr(0, 2) / hash;
 

@@ -8,17 +8,18 @@
 #include <vector>
 
 #include "host/kernel.h"
+#include "host/variant.h"
 
 namespace tessera {
 
-/// One kernel to compile. The generated variant module is the only thing that differs between variants of a stage.
+/// One kernel to compile. The generated modules are the only thing that differs between variants of a stage.
 struct KernelRequest {
   std::string stage;   ///< for messages and CompiledKernel::stage
   std::string source;  ///< file under slang/, e.g. "rasterizer/raster-tile.slang"
   std::string entry;   ///< entry point
   Route route = Route::kCpp;
-  std::string variantModule;  ///< text of variant.slang, imported by the sources as `variant`
-  std::string variantName;    ///< "axis=value axis=value", for messages
+  VariantModules modules;
+  std::string variantName;  ///< "axis=value axis=value", for messages
 };
 
 struct ToolInfo {
@@ -27,7 +28,7 @@ struct ToolInfo {
   std::string origin;  ///< "SLANGC", "PATH" or "tools" (the pinned one that ./dev fetched)
 };
 
-/// Content-addressed: the key holds the text of the Slang sources that the kernel imports, the variant module, flags,
+/// Content-addressed: the key holds the text of the Slang sources that the kernel imports, the generated modules, flags,
 /// slangc's and the C++ compiler's versions, and the resolved CPU target. Safe when two processes fill it at once
 /// (written beside, renamed); a broken entry is rebuilt. Thread-safe.
 class KernelCache {

@@ -20,19 +20,23 @@
 //                not within 2^24 either way (the guard band keeps them there, unless clipping overflowed float32) is
 //                dropped and counted as behind. sx = (x r)(W/2) + W/2,  sy = (y r)(H/2) + H/2;  depth z r clamped: (z r
 //                > 0) ? ((z r < 1) ? z r : 1) : +0.
-//   Snap         X = sx * 256 to the nearest integer, ties to even: n = floor(s), d = s - n, n + 1 if d > 1/2 or d =
-//                1/2 and n odd.
+//   Snap         With sub-pixel bits b, X = n 2^(8 - b) where n is sx * 2^b to the nearest integer, ties to even: n =
+//                floor(s), d = s - n, n + 1 if d > 1/2 or d = 1/2 and n odd. With b = 0 positions go to the samples
+//                themselves: s = sx - 0.5, X = 256 n + 128, so a triangle has integer vertices and its samples lie on
+//                them. Likewise Y. X and Y are in 1/256 pixel whatever b is.
 //   Orient       area2 = (X1 - X0)(Y2 - Y0) - (X2 - X0)(Y1 - Y0), exact. 0 is dropped. Negative is front
 //                (counter-clockwise on the screen) and vertices 1 and 2 are swapped; what follows sees area2 > 0.
 //   Cover        E_ab(p) = (Xb - Xa)(py - Ya) - (Yb - Ya)(px - Xa), exact, for the edges 0->1, 1->2, 2->0 at p = (256 i
 //                + 128, 256 j + 128). Covered when each E > 0, or E = 0 on a top edge (Yb = Ya, Xb > Xa) or a left edge
-//                (Yb < Ya).
+//                (Yb < Ya); with fill=inclusive when each E >= 0.
 //   Depth        r = 1 / float(area2);  d1 = z1 - z0;  d2 = z2 - z0;
 //                zx = ((float(Y2 - Y0) * 256) * r) * d1 + ((float(Y0 - Y1) * 256) * r) * d2;
 //                zy = ((float(X0 - X2) * 256) * r) * d1 + ((float(X1 - X0) * 256) * r) * d2;
 //                rebased to the fixed 8 x 8 cell of the pixel: P the sample of pixel (i - i % 8, j - j % 8),
 //                zc = z0 + ((float(E_20(P)) * r) * d1 + (float(E_01(P)) * r) * d2);
-//                z = (zc + zx * float(i % 8)) + zy * float(j % 8);  float(int64) rounds once, to nearest even;
+//                z = (zc + zx * float(i % 8)) + zy * float(j % 8);  float(int64) rounds once, to nearest even.
+//                interpolate=plane has z = (z0 + zx * (float(px - X0) / 256)) + zy * (float(py - Y0) / 256) instead,
+//                interpolate=weights z = z0 + ((float(E_20(p)) * r) * d1 + (float(E_01(p)) * r) * d2); each is
 //                then kept within the piece: z = (z > zmin) ? z : zmin;  z = (z < zmax) ? z : zmax  over z0, z1, z2.
 //                (So no sample is nearer than its piece's nearest vertex, which makes rejecting by zmin exact, and
 //                slivers stay bounded.)

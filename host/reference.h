@@ -13,8 +13,13 @@ namespace tessera::reference {
 
 /// The image-defining axes. Further values join here as the axes of variant.h gain them.
 enum class Cull { kNone, kBack, kFront };
+enum class Fill { kTopLeft, kInclusive };
+enum class Interpolate { kCellPlane, kPlane, kWeights };
 struct Image {
   Cull cull = Cull::kNone;
+  Fill fill = Fill::kTopLeft;
+  Interpolate interpolate = Interpolate::kCellPlane;
+  int subPixelBits = 8;  ///< 0, 4, 6 or 8
 };
 
 /// One oriented, snapped piece, as it enters coverage. Positions in 1/256 pixel.

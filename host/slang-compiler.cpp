@@ -155,7 +155,8 @@ std::string binaryEntry(const KernelRequest& request) { return request.route == 
 
 KernelInterface compileKernel(const KernelRequest& request, const CompileSettings& settings,
                               const std::map<fs::path, std::string>& sources, const fs::path& work) {
-  std::ofstream(work / "variant.slang") << request.variantModule;
+  std::ofstream(work / "settings.slang") << request.modules.settings;
+  std::ofstream(work / "variant.slang") << request.modules.variant;
   const fs::path reflection = work / "reflection.json", dependencies = work / "dependencies";
   const fs::path made = request.route == Route::kSpirv
                             ? work / binaryName(request.route)

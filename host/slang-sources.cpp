@@ -71,7 +71,7 @@ std::string readText(const fs::path& path) {
 }
 
 std::map<fs::path, std::string> slangSources(const fs::path& root, const fs::path& entry,
-                                             const std::string& variantModule) {
+                                             const std::string& generated) {
   std::map<fs::path, std::string> sources;
   std::vector<fs::path> pending{entry.lexically_normal()};
   const auto scan = [&](const std::string& text, const fs::path& beside) {
@@ -84,7 +84,7 @@ std::map<fs::path, std::string> slangSources(const fs::path& root, const fs::pat
       at = end + 1;
     }
   };
-  scan(variantModule, root);
+  scan(generated, root);
   while (!pending.empty()) {
     const fs::path file = pending.back();
     pending.pop_back();

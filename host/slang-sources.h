@@ -7,13 +7,13 @@
 
 namespace tessera {
 
-/// Path -> text of `entry` and of every file that it, or the variant module's text, names by import, __include,
+/// Path -> text of `entry` and of every file that it, or the generated modules' text, names by import, __include,
 /// implementing or #include, transitively. `import a.b_c` is a/b-c.slang or a/b_c.slang, beside the importing file or
 /// under `root`; all that exist are taken, so the set may hold more than slangc reads, never less (the compiler checks
 /// that against slangc's own list). Throws kFailure if `entry` is missing.
 std::map<std::filesystem::path, std::string> slangSources(const std::filesystem::path& root,
                                                           const std::filesystem::path& entry,
-                                                          const std::string& variantModule);
+                                                          const std::string& generated);
 
 /// Whole file; throws kFailure if it cannot be read.
 std::string readText(const std::filesystem::path& path);

@@ -52,7 +52,7 @@ KernelRequest kernelRequest(std::string_view name, const Plan& plan) {
   request.source = stage->source;
   request.entry = stage->entry;
   request.route = route == "cpp" ? Route::kCpp : route == "glsl" ? Route::kGlsl : Route::kSpirv;
-  request.variantModule = variantModule(name, plan.resolved);
+  request.modules = variantModules(name, plan.resolved);
   for (const Axis& axis : axes())
     if (std::ranges::find(axis.stages, name) != axis.stages.end())
       request.variantName += (request.variantName.empty() ? "" : " ") + axis.name + "=" + plan.resolved.get(axis.name);

@@ -14,7 +14,7 @@ namespace {
 
 using enum AxisKind;
 
-/// A value that is a Slang file: the file becomes part of the variant module and gives `role` its type.
+/// A value that is a Slang file: the file becomes part of the module `variant` and gives `role` its type.
 std::string module(std::string_view file, std::string_view role, std::string_view type) {
   return fmt::format("__include {};\npublic typealias {} = {};\n", file, role, type);
 }
@@ -26,6 +26,8 @@ std::string cullFlags(bool front, bool back) { return flag("kCullFront", front) 
 std::string shadeMode(int mode) {
   return fmt::format("public static const int kShadeId = 1, kShadeFlat = 2, kShadeSmooth = 3;\npublic static const int kShade = {};\n", mode);
 }
+
+constexpr bool kTypes = true;
 
 std::vector<Axis> makeAxes() {
   const std::vector<std::string> setup{"setup"}, vertex{"transform", "project", "setup"}, bin{"bin-count", "bin-insert"}, raster{"raster-tiles", "raster-items"};
@@ -73,16 +75,16 @@ std::vector<Axis> makeAxes() {
         {"depth32+id32", "64-bit atomic min on depth and id in one word", module("commit_depth32_id32", "Commit", "CommitPacked64")},
         {"two-pass", "32-bit atomic min on depth, then on the id of the samples that have it", module("commit_two_pass", "Commit", "CommitTwoPass")},
         {"count", "counts the pieces that cover each sample; no depth, no ids", module("commit_count", "Commit", "CommitCount"), kImage}},
-       0, 0, "tile-owned; with binning=none depth32+id32, or two-pass where the device has no 64-bit atomics"},
+       0, 0, "tile-owned; with binning=none depth32+id32, or two-pass where the device has no 64-bit atomics", kTypes},
       {"traversal", "which pixels test a piece", "Pineda, A parallel algorithm for polygon rasterization, SIGGRAPH 1988", raster,
        {{"pixel", "each pixel of each 8 x 8 cell that meets the bounding box", module("traversal_pixel", "Traversal", "TraversePixels")},
         {"cell-reject", "cells are rejected or accepted whole first", module("traversal_cell_reject", "Traversal", "TraverseCells")}},
-       0, 0, "cell-reject"},
+       0, 0, "cell-reject", kTypes},
       {"edge", "arithmetic of the edge functions", "", raster,
        {{"int32", "32-bit integers for pieces proved to fit (117 pixels), 64-bit ones elsewhere",
          "__include edge_int64;\n" + module("edge_int32", "EdgeArithmetic", "EdgeInt32")},
         {"int64", "64-bit integers", module("edge_int64", "EdgeArithmetic", "EdgeInt64")}},
-       0, 0, "int32"},
+       0, 0, "int32", kTypes},
       {"counters", "what is counted", "", raster,
        {{"basic", "drops, pieces, bins", flag("kCountWork", false)},
         {"work", "also tests, covered samples and atomics, at a cost", flag("kCountWork", true)}},
@@ -166,17 +168,19 @@ std::string Variant::text() const {
   return fmt::format("{}", fmt::join(parts, " "));
 }
 
-std::string variantModule(std::string_view stage, const Variant& resolved) {
-  std::string text = "// Generated: what the chosen variant is for this stage.\nmodule variant;\n";
+VariantModules variantModules(std::string_view stage, const Variant& resolved) {
+  VariantModules modules{"// Generated: the settings of this stage.\nmodule settings;\n",
+                         "// Generated: the types that this stage is made of.\nmodule variant;\n"};
+  std::string& text = modules.settings;
   for (const Axis& a : axes())
-    if (std::ranges::find(a.stages, stage) != a.stages.end()) text += valueOf(a, resolved.get(a.name)).slang;
+    if (std::ranges::find(a.stages, stage) != a.stages.end()) (a.types ? modules.variant : text) += valueOf(a, resolved.get(a.name)).slang;
   text += fmt::format("public static const int kCounterCount = {};\n", kernelCounterCount());
   for (std::size_t i = 0; i < kernelCounterCount(); ++i) {
     std::string name = counterDocs()[i].name;
     name[0] = static_cast<char>(std::toupper(name[0]));
     text += fmt::format("public static const uint kCount{} = {};\n", name, i);
   }
-  return text;
+  return modules;
 }
 
 }  // namespace tessera

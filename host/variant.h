@@ -1,6 +1,7 @@
 // The axes of variation: one list drives the command line, the kernels, the tests, the sweeps and the docs.
 #pragma once
 
+#include <compare>
 #include <map>
 #include <optional>
 #include <string>
@@ -19,7 +20,7 @@ const char* kindName(AxisKind kind);  ///< "image", "implementation", "approxima
 struct AxisValue {
   std::string name;
   std::string meaning;  ///< one line
-  std::string slang;    ///< what the generated variant module says for it; empty: a host path
+  std::string slang;    ///< what the generated module says for it; empty: a host path
   AxisKind kind = AxisKind::kImplementation;
 };
 
@@ -30,7 +31,10 @@ struct Axis {
   std::vector<std::string> stages;  ///< kernels that read it, by stage name; empty: the host reads it
   std::vector<AxisValue> values;    ///< empty: an integer from `least` to `most`
   long least = 0, most = 0;
-  std::string unset;  ///< what the plan chooses when it is not set, in words
+  std::string unset;   ///< what the plan chooses when it is not set, in words
+
+  /// Whether its values are Slang types, which the module `variant` names; else constants, which go into `settings`.
+  bool types = false;
 
   AxisKind kind() const;  ///< implementation where any value is; its other values say so themselves
 };
@@ -59,8 +63,15 @@ class Variant {
   std::map<std::string, std::string> values_;
 };
 
-/// Text of variant.slang for one stage: only the axes that the stage reads, so that its key holds no other.
-/// `resolved` has a value for each of them.
-std::string variantModule(std::string_view stage, const Variant& resolved);
+/// The two generated Slang modules of a kernel.
+struct VariantModules {
+  std::string settings;  ///< text of settings.slang: constants, and what the lowest modules are made of; imports nothing
+  std::string variant;   ///< text of variant.slang: the chosen types, each a file that fulfils an interface
+  std::string text() const { return settings + variant; }
+  auto operator<=>(const VariantModules&) const = default;
+};
+/// Those of one stage: only the axes that the stage reads, so that its key holds no other. `resolved` has a value for
+/// each of them.
+VariantModules variantModules(std::string_view stage, const Variant& resolved);
 
 }  // namespace tessera

@@ -10,11 +10,11 @@ namespace tessera::cli {
 
 void compileKernels(KernelCache& kernels, const std::vector<Plan>& plans) {
   std::vector<KernelRequest> requests;
-  std::set<std::tuple<std::string, Route, std::string>> seen;
+  std::set<std::tuple<std::string, Route, VariantModules>> seen;
   for (const auto& plan : plans)
     for (const auto& stage : stagesOf(plan)) {
       KernelRequest request = kernelRequest(stage, plan);
-      if (seen.emplace(request.stage, request.route, request.variantModule).second)
+      if (seen.emplace(request.stage, request.route, request.modules).second)
         requests.push_back(std::move(request));
     }
   Progress progress("compiling kernels", requests.size());

@@ -19,6 +19,7 @@ vk::raii::Device makeDevice(const Adapter& adapter) {
   vk::PhysicalDeviceFeatures features;
   features.shaderInt64 = adapter.features.shaderInt64;
   features.shaderFloat64 = adapter.features.shaderFloat64;
+  features.shaderFloat64 = adapter.features.shaderFloat64;
   // For the draw baseline: gl_PrimitiveID in fragment shaders, and large meshes.
   features.geometryShader = adapter.features.geometryShader;
   features.fullDrawIndexUint32 = adapter.features.fullDrawIndexUint32;

@@ -20,6 +20,7 @@ void checkCapabilities(const SpirvModule& module, const Adapter& adapter, const 
   };
   const Need needs[] = {
       {10, f.shaderFloat64, "64-bit floats (shaderFloat64)"},
+      {10, f.shaderFloat64, "64-bit floats (shaderFloat64)"},
       {11, f.shaderInt64, "64-bit integers (shaderInt64)"},
       {12, f12.shaderBufferInt64Atomics, "64-bit atomics on buffers (shaderBufferInt64Atomics)"},
       {5345, f12.vulkanMemoryModel, "the Vulkan memory model (vulkanMemoryModel)"},

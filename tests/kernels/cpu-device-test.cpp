@@ -55,7 +55,7 @@ struct Bench {
     writeText(shop.slang / "atomics.slang", kAtomics);
   }
   std::unique_ptr<Kernel> kernel(const char* entry) {
-    return device->createKernel(cache.get({entry, "device.slang", entry, Route::kCpp, "", ""}));
+    return device->createKernel(cache.get({entry, "device.slang", entry, Route::kCpp, {}, ""}));
   }
   void run(const Kernel& kernel, const std::vector<Binding>& bindings, Frame frame, std::uint32_t groups) {
     device->dispatch(kernel, bindings, std::as_bytes(std::span(&frame, 1)), groups);

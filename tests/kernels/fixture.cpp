@@ -54,7 +54,7 @@ KernelCache Workshop::open(bool boundsChecks, const std::string& flags) const {
 }
 
 KernelRequest scaleRequest(Route route, const std::string& variant) {
-  return {"scale", "rasterizer/scale.slang", "scaleAll", route, variant, "step=1"};
+  return {"scale", "rasterizer/scale.slang", "scaleAll", route, {"", variant}, "step=1"};
 }
 
 std::string lineOf(ExitCode code, const std::function<void()>& action) {

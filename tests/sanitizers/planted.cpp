@@ -16,7 +16,7 @@ int main(int argc, char** argv) try {
   options.slangSources = KERNELS;
   KernelCache kernels(options);
   const auto device = makeCpuDevice({.threads = 4});
-  const auto kernel = device->createKernel(kernels.get({argv[1], "planted.slang", argv[1], Route::kCpp, "", ""}));
+  const auto kernel = device->createKernel(kernels.get({argv[1], "planted.slang", argv[1], Route::kCpp, {}, ""}));
   constexpr std::uint32_t kWords = 64, kGroups = 1u << 20;
   const auto cells = device->createBuffer(4 * kWords, "cells");
   device->fill(*cells, 0, 4 * kWords, 1);

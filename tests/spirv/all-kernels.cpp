@@ -66,7 +66,7 @@ std::vector<KernelRequest> kernelsOf(const Stage& stage, Route route) {
         const Plan plan = makePlan(scene, variant, device);
         if (!std::ranges::count(stagesOf(plan), stage.name)) return;
         KernelRequest request = kernelRequest(stage.name, plan);
-        const std::string key = request.variantModule;
+        const std::string key = request.modules.text();
         if (found.emplace(key, std::move(request)).second) order.push_back(key);
       } catch (const Error&) {  // values that do not go together
       }

@@ -42,7 +42,7 @@ struct Machine {
   }
 
   std::unique_ptr<Kernel> kernel(const std::string& entry) {
-    return device->createKernel(kernels().get({entry, "device-kernels.slang", entry, Route::kSpirv, "", ""}));
+    return device->createKernel(kernels().get({entry, "device-kernels.slang", entry, Route::kSpirv, {}, ""}));
   }
   std::unique_ptr<Buffer> buffer(const Words& words) {
     auto made = device->createBuffer(words.size() * 4, "words");
