@@ -19,21 +19,26 @@ struct Snapped {
   float z;
 };
 
-// Nearest integer, ties to even. Nothing if it is not within 2^24 either way, NaN included.
-std::optional<std::int32_t> snap(float s) {
-  constexpr float kLimit = 16777216.0f;
-  if (!(s >= -kLimit && s <= kLimit)) return std::nullopt;
+// A position in pixels to 1/256 pixel, by the nearest multiple of 2^-bits pixels, ties to even; with no bits, by the
+// nearest sample. Nothing if it is not within 2^24 either way, NaN included.
+std::optional<std::int32_t> snap(float position, int bits) {
+  constexpr std::int64_t kLimit = 1 << 24;
+  const float s = bits == 0 ? position - 0.5f : position * static_cast<float>(1 << bits);
+  if (!(s >= -static_cast<float>(kLimit) && s <= static_cast<float>(kLimit))) return std::nullopt;
   const float whole = std::floor(s);
   const float part = s - whole;
-  const auto n = static_cast<std::int32_t>(whole);
-  return part > 0.5f || (part == 0.5f && n % 2 != 0) ? n + 1 : n;
+  auto n = static_cast<std::int64_t>(whole);
+  if (part > 0.5f || (part == 0.5f && n % 2 != 0)) ++n;
+  const std::int64_t snapped = bits == 0 ? 256 * n + 128 : n * (1 << (8 - bits));
+  if (snapped < -kLimit || snapped > kLimit) return std::nullopt;
+  return static_cast<std::int32_t>(snapped);
 }
 
-std::optional<Snapped> project(const glm::vec4& v, float halfWidth, float halfHeight) {
+std::optional<Snapped> project(const glm::vec4& v, float halfWidth, float halfHeight, int bits) {
   const float r = 1.0f / v.w;
   if (!(v.w > 0) || !std::isfinite(r)) return std::nullopt;
-  const auto x = snap(((v.x * r) * halfWidth + halfWidth) * 256.0f);
-  const auto y = snap(((v.y * r) * halfHeight + halfHeight) * 256.0f);
+  const auto x = snap((v.x * r) * halfWidth + halfWidth, bits);
+  const auto y = snap((v.y * r) * halfHeight + halfHeight, bits);
   if (!x || !y) return std::nullopt;
   const float z = v.z * r;
   return Snapped{*x, *y, z > 0 ? (z < 1 ? z : 1.0f) : 0.0f};
@@ -46,12 +51,12 @@ std::int64_t doubleArea(const Snapped& a, const Snapped& b, const Snapped& c) {
 }
 
 void addPiece(std::uint32_t id, const glm::vec4& a, const glm::vec4& b, const glm::vec4& c, const Scene& scene,
-              Cull cull, std::vector<Piece>& pieces, Counts& counts) {
+              const Image& image, std::vector<Piece>& pieces, Counts& counts) {
   const float halfWidth = static_cast<float>(scene.width) * 0.5f;
   const float halfHeight = static_cast<float>(scene.height) * 0.5f;
-  const auto v0 = project(a, halfWidth, halfHeight);
-  auto v1 = project(b, halfWidth, halfHeight);
-  auto v2 = project(c, halfWidth, halfHeight);
+  const auto v0 = project(a, halfWidth, halfHeight, image.subPixelBits);
+  auto v1 = project(b, halfWidth, halfHeight, image.subPixelBits);
+  auto v2 = project(c, halfWidth, halfHeight, image.subPixelBits);
   if (!v0 || !v1 || !v2) {
     ++counts.behind;
     return;
@@ -62,7 +67,7 @@ void addPiece(std::uint32_t id, const glm::vec4& a, const glm::vec4& b, const gl
     return;
   }
   const bool front = area2 < 0;
-  if ((cull == Cull::kBack && !front) || (cull == Cull::kFront && front)) {
+  if ((image.cull == Cull::kBack && !front) || (image.cull == Cull::kFront && front)) {
     ++counts.facing;
     return;
   }
@@ -104,7 +109,7 @@ std::vector<Piece> pieces(const Scene& scene, const Image& image, Counts* counts
     counted.outside += polygon.empty();
     counted.clipped += outsideSome;
     for (std::size_t i = 2; i < polygon.size(); ++i) {
-      addPiece(id, polygon[0], polygon[i - 1], polygon[i], scene, image.cull, result, counted);
+      addPiece(id, polygon[0], polygon[i - 1], polygon[i], scene, image, result, counted);
     }
   }
   if (counts) *counts = counted;

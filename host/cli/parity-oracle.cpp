@@ -4,22 +4,11 @@
 
 #include <algorithm>
 
+#include "host/oracle-image.h"
 #include "host/reference.h"
 
 namespace tessera::cli {
-namespace {
-
-reference::Image imageAxes(const Variant& variant) {
-  const std::string cull = variant.get("cull", "none");
-  if (cull == "back") return {.cull = reference::Cull::kBack};
-  if (cull == "front") return {.cull = reference::Cull::kFront};
-  return {};
-}
-
-}  // namespace
-
-Oracle::Oracle(const Scene& scene, const Variant& variant)
-    : image_(reference::render(scene, imageAxes(variant)).image) {}
+Oracle::Oracle(const Scene& scene, const Variant& variant) : image_(reference::render(scene, imageOf(variant)).image) {}
 
 Difference Oracle::against(const Framebuffer& frame) {
   if (image_.colour.empty()) image_.colour = frame.colour;

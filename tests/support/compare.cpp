@@ -64,9 +64,4 @@ std::string difference(const std::vector<StageOutput>& got, const std::vector<St
   return "";
 }
 
-reference::Image imageOf(const Variant& variant) {
-  const std::string cull = variant.get("cull", "none");
-  return {cull == "back" ? reference::Cull::kBack : cull == "front" ? reference::Cull::kFront : reference::Cull::kNone};
-}
-
 }  // namespace tessera

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "host/framebuffer.h"
+#include "host/oracle-image.h"
 #include "host/rasterizer.h"
 #include "host/reference.h"
 
@@ -17,7 +18,5 @@ std::string difference(const Counters& got, const reference::Counts& expected);
 std::string difference(const Frame& got, const reference::Result& expected);
 /// Of stage outputs: "" or the first stage, element and word that differ.
 std::string difference(const std::vector<StageOutput>& got, const std::vector<StageOutput>& expected);
-/// The oracle's image for the axes that define one.
-reference::Image imageOf(const Variant& variant);
 
 }  // namespace tessera
