@@ -109,8 +109,6 @@ class Planner {
       : scene_(scene), asked_(asked), device_(device), full_(asked.get("plan", "planned") == "full") {}
 
   Plan run() {
-    if (!device_.int64)
-      failUnsupported(fmt::format("{}: the kernels need 64-bit integers in shaders (shaderInt64)", device_.name));
     choose("plan", "planned");
     route();
     geometry();
@@ -118,6 +116,7 @@ class Planner {
     commit();
     choose("traversal", "cell-reject");
     choose("edge", "int32");
+    wide();
     choose("counters", "basic");
     shading();
     return std::move(plan_);
@@ -211,6 +210,11 @@ class Planner {
     note(binned_ ? "raster-tiles" : "raster-items", true, binned_ ? "a group a tile" : "a lane a work item");
     note("resolve", value == "depth32+id32",
          value == "depth32+id32" ? "packed words become depth and ids" : "depth and ids are written as they are");
+  }
+
+  void wide() {
+    if (choose("wide", device_.int64 ? "native" : "two-word") == "native" && !device_.int64)
+      failUnsupported(fmt::format("wide=native: {} has no 64-bit integers (shaderInt64); set wide=two-word", device_.name));
   }
 
   /// Depth and id of each pixel.

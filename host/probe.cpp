@@ -145,7 +145,7 @@ struct Runner {
   /// Results of an entry point of probe.slang over `count` inputs.
   Words run(const char* stage, const char* entry, std::uint32_t count, std::string_view operandsName,
             std::span<const std::byte> operands, std::size_t resultWords, std::uint32_t groups) {
-    const auto kernel = device.createKernel(kernels.get({stage, "probe.slang", entry, route, {}, ""}));
+    const auto kernel = device.createKernel(kernels.get({stage, "probe.slang", entry, route, {"module settings;\n__include wide_native;\n", ""}, ""}));
     const auto in = device.createBuffer(operands.size(), operandsName);
     const auto out = device.createBuffer(resultWords * 4, "results");
     device.write(*in, 0, operands);

@@ -31,6 +31,7 @@ constexpr bool kTypes = true;
 
 std::vector<Axis> makeAxes() {
   const std::vector<std::string> setup{"setup"}, vertex{"transform", "project", "setup"}, bin{"bin-count", "bin-insert"}, raster{"raster-tiles", "raster-items"};
+  const std::vector<std::string> wide{"setup", "bin-count", "bin-insert", "raster-tiles", "raster-items"};
   return {
       {"route", "how the kernels reach the machine", "Slang user guide, chapter on targets", {},
        {{"cpp", "Slang to C++, on the CPU device", ""},
@@ -85,6 +86,10 @@ std::vector<Axis> makeAxes() {
          "__include edge_int64;\n" + module("edge_int32", "EdgeArithmetic", "EdgeInt32")},
         {"int64", "64-bit integers", module("edge_int64", "EdgeArithmetic", "EdgeInt64")}},
        0, 0, "int32", kTypes},
+      {"wide", "64-bit integers of setup, bins and edges", "Warren, Hacker's Delight, 2nd edition, 2012, section 8-2", wide,
+       {{"native", "the device's own 64-bit integers", "__include wide_native;\n"},
+        {"two-word", "pairs of 32-bit words", "__include wide_two_word;\n"}},
+       0, 0, "native where the device has 64-bit integers, else two-word"},
       {"counters", "what is counted", "", raster,
        {{"basic", "drops, pieces, bins", flag("kCountWork", false)},
         {"work", "also tests, covered samples and atomics, at a cost", flag("kCountWork", true)}},
