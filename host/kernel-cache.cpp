@@ -20,6 +20,7 @@
 #include "host/reflection.h"
 #include "host/slang-compiler.h"
 #include "host/slang-sources.h"
+#include "host/user-kernel.h"
 
 #ifndef TESSERA_KERNEL_CXX_FLAGS
 #define TESSERA_KERNEL_CXX_FLAGS ""
@@ -37,7 +38,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Raised when an entry's files or what makes them changes, so that old entries are not found.
-constexpr const char* kFormat = "tessera kernel 1";
+constexpr const char* kFormat = "tessera kernel 2";
 
 std::string sha256(std::string_view text) {
   unsigned char digest[EVP_MAX_MD_SIZE];
@@ -106,11 +107,13 @@ struct KernelCache::State {
     return *place;
   }
 
-  CompileSettings settings(Route route) {
+  CompileSettings settings(const KernelRequest& request) {
     CompileSettings settings;
-    settings.slangc = tool(slangc, chooseSlangc);
+    const Route route = request.route;
+    const bool glsl = languageOf(request) == Language::kGlsl;
+    if (!glsl) settings.slangc = tool(slangc, chooseSlangc);
     if (route == Route::kCpp) settings.cxx = tool(cxx, resolveCxx);
-    if (route == Route::kGlsl) settings.glslang = tool(glslang, resolveGlslang);
+    if (route == Route::kGlsl || glsl) settings.glslang = tool(glslang, resolveGlslang);
     settings.slangSources = options.slangSources;
     settings.boundsChecks = options.boundsChecks && route == Route::kCpp;
     settings.cxxFlags = cxxFlags;
@@ -124,14 +127,17 @@ struct KernelCache::State {
       all += fmt::format("{}:", part.size()).append(part);
     };  // lengths keep parts apart
     add(kFormat);
-    add(request.source);
+    const bool glsl = languageOf(request) == Language::kGlsl;
+    add(request.file.empty() ? request.source : request.stage + request.file.extension().string());
     add(request.entry);
     add(request.modules.settings);
     add(request.modules.variant);
     add(settings.slangc.version);
-    for (const std::string& flag : slangFlags(request.route)) add(flag);
-    for (const auto& [path, text] : sources) add(path.lexically_relative(settings.slangSources).string()), add(text);
-    if (request.route == Route::kGlsl) add(settings.glslang.version);
+    if (!glsl)
+      for (const std::string& flag : slangFlags(request.route)) add(flag);
+    for (const auto& [path, text] : sources)
+      add(fs::absolute(path).lexically_normal().lexically_relative(settings.slangSources).string()), add(text);
+    add(settings.glslang.version);
     if (request.route == Route::kCpp) {
       const fs::path atomics = settings.slangSources / "atomics-cpp.h";
       add(fs::exists(atomics) ? readText(atomics) : "");
@@ -181,14 +187,17 @@ KernelCache::KernelCache(Options options) {
 KernelCache::~KernelCache() = default;
 
 CompiledKernel KernelCache::get(const KernelRequest& request) {
-  const CompileSettings settings = state_->settings(request.route);
-  const auto sources =
-      slangSources(settings.slangSources, settings.slangSources / request.source, request.modules.text());
+  const CompileSettings settings = state_->settings(request);
+  const fs::path source = request.file.empty() ? settings.slangSources / request.source : request.file;
+  const auto sources = slangSources(settings.slangSources, source, request.modules.text());
   const std::string hash = state_->key(request, settings, sources);
   const fs::path entry = state_->options.folder / hash.substr(0, 2) / hash;
 
-  CompiledKernel kernel{
-      request.stage, binaryEntry(request), request.route, entry / binaryName(request.route), hash, {}};
+  CompiledKernel kernel{request.stage, binaryEntry(request),
+                        request.route, entry / binaryName(request.route),
+                        hash,          {},
+                        request.file,  ""};
+  if (!request.file.empty()) kernel.fileHash = sha256(sources.at(request.file.lexically_normal()));
   if (auto found = readEntry(entry, request.route)) {
     ++state_->hits;
     kernel.interface = std::move(*found);
@@ -227,6 +236,8 @@ std::vector<CompiledKernel> KernelCache::getAll(const std::vector<KernelRequest>
   if (failure) std::rethrow_exception(failure);
   return kernels;
 }
+
+const KernelFiles& KernelCache::files() const { return state_->options.files; }
 
 const ToolInfo& KernelCache::slangc() const { return state_->tool(state_->slangc, chooseSlangc); }
 

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -19,8 +20,12 @@ struct KernelRequest {
   std::string entry;   ///< entry point
   Route route = Route::kCpp;
   VariantModules modules;
-  std::string variantName;  ///< "axis=value axis=value", for messages
+  std::string variantName;          ///< "axis=value axis=value", for messages
+  std::filesystem::path file = {};  ///< a user's kernel in place of `source`, see user-kernel.h
 };
+
+/// Kernels that a user brings: stage -> file.
+using KernelFiles = std::map<std::string, std::filesystem::path>;
 
 struct ToolInfo {
   std::filesystem::path path;
@@ -28,17 +33,19 @@ struct ToolInfo {
   std::string origin;  ///< "SLANGC", "PATH" or "tools" (the pinned one that ./dev fetched)
 };
 
-/// Content-addressed: the key holds the text of the Slang sources that the kernel imports, the generated modules, flags,
-/// slangc's and the C++ compiler's versions, and the resolved CPU target. Safe when two processes fill it at once
-/// (written beside, renamed); a broken entry is rebuilt. Thread-safe.
+/// Content-addressed: the key holds the text of the Slang sources that the kernel imports, the generated modules,
+/// flags, slangc's and the C++ compiler's versions, and the resolved CPU target. Safe when two processes fill it at
+/// once (written beside, renamed); a broken entry is rebuilt. Thread-safe.
 class KernelCache {
  public:
   struct Options {
-    std::filesystem::path folder;  ///< default: $TESSERA_CACHE, else $XDG_CACHE_HOME/tessera, else ~/.cache/tessera
-    std::filesystem::path
-        slangSources;  ///< default: $TESSERA_SLANG_SOURCES, else the installed or source folder known at build time
-    bool boundsChecks = false;  ///< kCpp: compile Slang's bounds checks in (asserts)
-    std::string extraCxxFlags;  ///< kCpp: separated by spaces, after those that the build gave (its sanitizers)
+    std::filesystem::path folder =
+        {};  ///< default: $TESSERA_CACHE, else $XDG_CACHE_HOME/tessera, else ~/.cache/tessera
+    std::filesystem::path slangSources =
+        {};  ///< default: $TESSERA_SLANG_SOURCES, else the installed or source folder known at build time
+    bool boundsChecks = false;       ///< kCpp: compile Slang's bounds checks in (asserts)
+    std::string extraCxxFlags = {};  ///< kCpp: separated by spaces, after those that the build gave (its sanitizers)
+    KernelFiles files = {};  ///< stages that run these in place of their own kernels, whatever renders with this cache
   };
   struct Statistics {
     std::size_t hits = 0, compiled = 0, rebuilt = 0;
@@ -54,8 +61,9 @@ class KernelCache {
   std::vector<CompiledKernel> getAll(const std::vector<KernelRequest>& requests,
                                      const std::function<void(std::size_t, std::size_t)>& progress = {});
 
-  const ToolInfo& slangc() const;  ///< the compiler in use: one whose SPIR-V passes checkSpirv()
-  std::string cxx() const;         ///< "g++ 12.2.0, -O3 -march=native ... (znver4)"
+  const KernelFiles& files() const;  ///< those of the options
+  const ToolInfo& slangc() const;    ///< the compiler in use: one whose SPIR-V passes checkSpirv()
+  std::string cxx() const;           ///< "g++ 12.2.0, -O3 -march=native ... (znver4)"
   std::filesystem::path folder() const;
   Statistics statistics() const;
 

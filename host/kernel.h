@@ -1,9 +1,11 @@
 // A compiled kernel as a device takes it: one binary, one entry point, and where each parameter goes.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <set>
 #include <string>
 
 namespace tessera {
@@ -11,11 +13,13 @@ namespace tessera {
 /// How Slang reaches the machine. kCpp runs on the CPU device, the other two on a Vulkan device.
 enum class Route { kCpp, kSpirv, kGlsl };
 
-/// Where the parameters of a kernel go, read from slangc's reflection JSON; no layout is retyped by hand.
+/// Where the parameters of a kernel go, read from slangc's reflection JSON or from the SPIR-V itself; no layout is
+/// retyped by hand.
 struct KernelInterface {
   struct Field {
-    std::uint32_t offset = 0, size = 0;
-  };                                    ///< bytes, in the uniform block
+    std::uint32_t offset = 0, size = 0;  ///< bytes, in the uniform block
+    bool floating = false;
+  };
   std::map<std::string, Field> fields;  ///< fields of the one ConstantBuffer, `frame`
   std::uint32_t blockSize = 0;          ///< bytes of that block
   /// Resource name -> descriptor binding in set 0 (kSpirv, kGlsl) or byte offset in the global struct (kCpp: the block
@@ -23,6 +27,8 @@ struct KernelInterface {
   /// "frame".
   std::map<std::string, std::uint32_t> resources;
   std::map<std::string, std::uint32_t> elementSizes;  ///< bytes of one element of each structured buffer
+  std::set<std::string> writable;                     ///< structured buffers that it may write
+  std::array<std::uint32_t, 3> groupSize{1, 1, 1};    ///< threads of a workgroup
   std::uint32_t globalsSize = 0;                      ///< kCpp: bytes of the global struct
 };
 
@@ -33,6 +39,8 @@ struct CompiledKernel {
   std::filesystem::path binary;  ///< shared object (kCpp) or SPIR-V module
   std::string hash;              ///< content hash: sources, variant, flags, compilers
   KernelInterface interface;
+  std::filesystem::path file;  ///< a user's kernel, in place of the stage's own; else empty
+  std::string fileHash;        ///< SHA-256 of that file
 };
 
 }  // namespace tessera

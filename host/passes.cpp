@@ -10,15 +10,12 @@
 namespace tessera {
 
 void Passes::prepare(const Plan& plan) {
-  const std::vector<std::string> names = stagesOf(plan);
-  std::vector<KernelRequest> requests;
-  for (const std::string& name : names) requests.push_back(kernelRequest(name, plan));
-  const std::vector<CompiledKernel> compiled = cache_.getAll(requests);
+  const std::vector<CompiledKernel> compiled = compileStages(cache_, plan);
   kernels_.clear();
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    auto& kernel = loaded_[compiled[i].hash];
-    if (!kernel) kernel = device_.createKernel(compiled[i]);
-    kernels_[names[i]] = kernel.get();
+  for (const CompiledKernel& stage : compiled) {
+    auto& kernel = loaded_[stage.hash];
+    if (!kernel) kernel = device_.createKernel(stage);
+    kernels_[stage.stage] = kernel.get();
   }
 }
 

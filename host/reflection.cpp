@@ -52,7 +52,8 @@ std::set<std::string> unusedResources(const json& reflection, Route route, const
 void readBlock(const json& block, KernelInterface& interface) {
   for (const json& field : block.at("fields")) {
     const json& binding = field.at("binding");
-    interface.fields[field.at("name")] = {binding.at("offset"), binding.at("size")};
+    interface.fields[field.at("name")] = {binding.at("offset"), binding.at("size"),
+                                          field.at("type").value("scalarType", "") == "float32"};
   }
   interface.blockSize = uniformSize(block).value;
 }
@@ -80,11 +81,13 @@ KernelInterface readReflection(const std::string& text, Route route, const std::
     } else if (type.at("kind") == "resource" && type.at("baseShape") == "structuredBuffer") {
       const Size element = uniformSize(type.at("resultType"));
       interface.elementSizes[name] = roundUp(element.value, element.alignment);
+      if (type.value("access", "read") != "read") interface.writable.insert(name);
     } else {
       fail(fmt::format("`{}` is neither a structured buffer nor the constant buffer `frame`", name));
     }
     interface.resources[name] = place;
   }
+  reflection.at("entryPoints").at(0).at("threadGroupSize").get_to(interface.groupSize);
   return interface;
 } catch (const json::exception& error) {
   fail(fmt::format("slangc's reflection JSON is not as expected: {}", error.what()));
@@ -92,20 +95,24 @@ KernelInterface readReflection(const std::string& text, Route route, const std::
 
 json toJson(const KernelInterface& interface) {
   json fields = json::object();
-  for (const auto& [name, field] : interface.fields) fields[name] = {field.offset, field.size};
+  for (const auto& [name, field] : interface.fields) fields[name] = {field.offset, field.size, field.floating};
   return {{"fields", fields},
           {"blockSize", interface.blockSize},
           {"resources", interface.resources},
           {"elementSizes", interface.elementSizes},
+          {"writable", interface.writable},
+          {"groupSize", interface.groupSize},
           {"globalsSize", interface.globalsSize}};
 }
 
 KernelInterface interfaceFromJson(const json& stored) {
   KernelInterface interface;
-  for (const auto& [name, field] : stored.at("fields").items()) interface.fields[name] = {field.at(0), field.at(1)};
+  for (const auto& [name, field] : stored.at("fields").items()) interface.fields[name] = {field.at(0), field.at(1), field.at(2)};
   interface.blockSize = stored.at("blockSize");
   interface.resources = stored.at("resources").get<std::map<std::string, std::uint32_t>>();
   interface.elementSizes = stored.at("elementSizes").get<std::map<std::string, std::uint32_t>>();
+  stored.at("writable").get_to(interface.writable);
+  stored.at("groupSize").get_to(interface.groupSize);
   interface.globalsSize = stored.at("globalsSize");
   return interface;
 }

@@ -149,6 +149,8 @@ std::string rowText(const Run& run) {
   Json row = {{"schema_version", kRowSchemaVersion}, {"run_id", makeRunId(now)}};
   row["variant"] = Json::object();
   for (const auto& [axis, value] : run.variant.values()) row["variant"][axis] = value;
+  for (const auto& [stage, file] : run.kernelFiles)
+    row["kernel_files"][stage] = {{"file", file.first}, {"sha256", file.second}};
   if (run.scene) row["scene"] = sceneJson(*run.scene);
   row["status"] = run.status;
   if (!run.message.empty()) row["message"] = run.message;

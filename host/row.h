@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "host/device.h"
@@ -31,6 +32,7 @@ struct Run {
   std::string slang;                           ///< version of the slangc in use
   std::string kernelCompiler;                  ///< C++ compiler of the CPU's kernels, with flags and target
   std::map<std::string, std::string> kernels;  ///< stage -> content hash
+  std::map<std::string, std::pair<std::string, std::string>> kernelFiles;  ///< stage -> a user's file, its SHA-256
   std::uint64_t peakBufferBytes = 0;
 };
 

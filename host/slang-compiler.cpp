@@ -8,8 +8,10 @@
 #include "host/error.h"
 #include "host/reflection.h"
 #include "host/slang-sources.h"
+#include "host/spirv-reflection.h"
 #include "host/spirv.h"
 #include "host/subprocess.h"
+#include "host/user-kernel.h"
 
 namespace tessera {
 namespace {
@@ -58,15 +60,16 @@ std::string firstError(const std::string& output) {
 }
 
 std::string describe(const KernelRequest& request) {
-  return fmt::format("kernel {} ({}){}", request.stage, request.source,
+  return fmt::format("kernel {} ({}){}", request.stage, request.file.empty() ? request.source : request.file.string(),
                      request.variantName.empty() ? "" : " [" + request.variantName + "]");
 }
 
 void runCompiler(const KernelRequest& request, const std::vector<std::string>& arguments, const fs::path& made) {
   const ProcessResult result = runProcess(arguments);
   if (!result.ok() || !fs::exists(made))
-    fail(fmt::format("{}: {}: {}", describe(request), fs::path(arguments[0]).filename().string(),
-                     firstError(result.output)));
+    throw Error(request.file.empty() ? ExitCode::kFailure : ExitCode::kUsage,  // a user's kernel is input
+                fmt::format("{}: {}: {}", describe(request), fs::path(arguments[0]).filename().string(),
+                            firstError(result.output)));
 }
 
 void append(std::vector<std::string>& to, const std::vector<std::string>& more) {
@@ -113,16 +116,21 @@ void compileCpp(const KernelRequest& request, const CompileSettings& settings, c
   runCompiler(request, arguments, made);
 }
 
-void compileGlsl(const KernelRequest& request, const CompileSettings& settings, const fs::path& source,
-                 const fs::path& work) {
+/// GLSL to a module, which comes back as words.
+std::vector<std::uint32_t> compileGlsl(const KernelRequest& request, const CompileSettings& settings,
+                                       const fs::path& source, const fs::path& work) {
   const fs::path made = work / binaryName(request.route);
   runCompiler(request,
-              {settings.glslang.path.string(), "-V", "--target-env", "vulkan1.2", "-S", "comp", "-o", made.string(),
-               source.string()},
+              {settings.glslang.path.string(), "-V", "--target-env", "vulkan1.2", "-S", "comp", "-I" + work.string(),
+               "-o", made.string(), source.string()},
               made);
-  std::vector<std::uint32_t> words = readSpirv(made);
-  decorateNoContraction(words);
-  writeSpirv(made, words);
+  return readSpirv(made);
+}
+
+/// A user's GLSL, as it is: what it does not call `precise` is the user's choice.
+KernelInterface compileUsersGlsl(const KernelRequest& request, const CompileSettings& settings, const fs::path& work) {
+  std::ofstream(work / "settings.glsl") << glslSettings(request.modules.settings);
+  return readSpirvInterface(compileGlsl(request, settings, request.file, work));
 }
 
 }  // namespace
@@ -153,34 +161,49 @@ const char* binaryName(Route route) { return route == Route::kCpp ? "kernel.so" 
 
 std::string binaryEntry(const KernelRequest& request) { return request.route == Route::kCpp ? request.entry : "main"; }
 
-KernelInterface compileKernel(const KernelRequest& request, const CompileSettings& settings,
-                              const std::map<fs::path, std::string>& sources, const fs::path& work) {
+namespace {
+
+KernelInterface compileSlang(const KernelRequest& request, const CompileSettings& settings,
+                             const std::map<fs::path, std::string>& sources, const fs::path& work) {
   std::ofstream(work / "settings.slang") << request.modules.settings;
   std::ofstream(work / "variant.slang") << request.modules.variant;
   const fs::path reflection = work / "reflection.json", dependencies = work / "dependencies";
   const fs::path made = request.route == Route::kSpirv
                             ? work / binaryName(request.route)
                             : work / (request.route == Route::kCpp ? "slang.cpp" : "kernel.comp");
-  std::vector<std::string> arguments{
-      settings.slangc.path.string(), (settings.slangSources / request.source).string(), "-I", work.string(), "-I",
-      settings.slangSources.string()};
+  const fs::path source = request.file.empty() ? settings.slangSources / request.source : request.file;
+  std::vector<std::string> arguments{settings.slangc.path.string(), source.string(), "-I", work.string(), "-I",
+                                     settings.slangSources.string()};
   append(arguments, slangFlags(request.route));
   append(arguments, {"-entry", request.entry, "-stage", "compute", "-o", made.string(), "-reflection-json",
                      reflection.string(), "-depfile", dependencies.string()});
   runCompiler(request, arguments, made);
 
+  if (fs::exists(dependencies)) checkDependencies(readText(dependencies), sources, work);
+  const std::string generated = request.route == Route::kCpp ? readText(made) : "";
+  if (request.route == Route::kCpp) compileCpp(request, settings, generated, work);
+  if (request.route == Route::kGlsl) {
+    std::vector<std::uint32_t> words = compileGlsl(request, settings, made, work);
+    decorateNoContraction(words);
+    writeSpirv(work / binaryName(request.route), words);
+  }
+  if (request.route != Route::kCpp && request.file.empty())
+    if (const std::vector<std::string> violations = checkSpirv(work / binaryName(request.route)); !violations.empty())
+      fail(fmt::format("its SPIR-V is not exact: {}", violations[0]));
+  return readReflection(readText(reflection), request.route, generated);
+}
+
+}  // namespace
+
+KernelInterface compileKernel(const KernelRequest& request, const CompileSettings& settings,
+                              const std::map<fs::path, std::string>& sources, const fs::path& work) {
   try {
-    if (fs::exists(dependencies)) checkDependencies(readText(dependencies), sources, work);
-    const std::string generated = request.route == Route::kCpp ? readText(made) : "";
-    if (request.route == Route::kCpp) compileCpp(request, settings, generated, work);
-    if (request.route == Route::kGlsl) compileGlsl(request, settings, made, work);
-    if (request.route != Route::kCpp)
-      if (const std::vector<std::string> violations = checkSpirv(work / binaryName(request.route)); !violations.empty())
-        fail(fmt::format("its SPIR-V is not exact: {}", violations[0]));
-    return readReflection(readText(reflection), request.route, generated);
+    return languageOf(request) == Language::kGlsl ? compileUsersGlsl(request, settings, work)
+                                                  : compileSlang(request, settings, sources, work);
   } catch (const Error& error) {
     const std::string what = error.what(), name = describe(request);
-    throw Error(error.code(), what.rfind(name, 0) == 0 ? what : name + ": " + what);
+    const ExitCode code = request.file.empty() ? error.code() : ExitCode::kUsage;
+    throw Error(code, what.rfind(name, 0) == 0 ? what : name + ": " + what);
   }
 }
 

@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <map>
 #include <set>
 
-#include "host/error.h"
 #include "host/kernel-cache.h"
 #include "host/spirv.h"
 
@@ -22,7 +20,6 @@ enum Op : std::uint32_t {
   kOpDecorate = 71,
 };
 constexpr std::uint32_t kNoContraction = 42;
-constexpr std::size_t kHeaderWords = 5;
 
 /// Instructions that a driver may fuse with a neighbour unless NoContraction stands on them.
 const std::map<std::uint32_t, const char*> kContractible = {
@@ -48,70 +45,29 @@ const std::map<std::uint32_t, const char*> kExtendedNames = {
     {46, "FMix"},  {48, "Step"},      {49, "SmoothStep"},  {50, "Fma"},  {66, "Length"}, {67, "Distance"},
     {68, "Cross"}, {69, "Normalize"}, {79, "NMin"},        {80, "NMax"}, {81, "NClamp"}};
 
-struct Instruction {
-  std::uint32_t op;
-  const std::uint32_t* operands;  ///< the words after the first
-  std::size_t count;              ///< of operands
-  std::size_t at;                 ///< index of the first word
-
-  std::string text(std::size_t from) const {  ///< a literal string among the operands
-    const char* begin = reinterpret_cast<const char*>(operands + from);
-    return {begin, std::find(begin, begin + (count - from) * 4, '\0')};
-  }
-};
-
-std::vector<Instruction> instructions(const std::vector<std::uint32_t>& words) {
-  std::vector<Instruction> all;
-  for (std::size_t at = kHeaderWords; at < words.size();) {
-    const std::size_t length = words[at] >> 16;
-    if (length == 0 || at + length > words.size())
-      fail(fmt::format("SPIR-V word {}: an instruction of {} words does not fit", at, length));
-    all.push_back({words[at] & 0xffff, words.data() + at + 1, length - 1, at});
-    at += length;
-  }
-  return all;
-}
-
-bool isNoContraction(const Instruction& i) {
+bool isNoContraction(const SpirvInstruction& i) {
   return i.op == kOpDecorate && i.count >= 2 && i.operands[1] == kNoContraction;
 }
 
 }  // namespace
 
-std::vector<std::uint32_t> readSpirv(const std::filesystem::path& module) {
-  std::ifstream file(module, std::ios::binary | std::ios::ate);
-  if (!file) fail(fmt::format("{}: cannot be read", module.string()));
-  const auto bytes = static_cast<std::size_t>(file.tellg());
-  std::vector<std::uint32_t> words(bytes / 4);
-  file.seekg(0);
-  file.read(reinterpret_cast<char*>(words.data()), static_cast<std::streamsize>(words.size() * 4));
-  if (!file || bytes % 4 != 0 || words.size() < kHeaderWords || words[0] != 0x07230203u)
-    fail(fmt::format("{}: not a SPIR-V module", module.string()));
-  return words;
-}
-
-void writeSpirv(const std::filesystem::path& module, const std::vector<std::uint32_t>& words) {
-  std::ofstream file(module, std::ios::binary);
-  file.write(reinterpret_cast<const char*>(words.data()), static_cast<std::streamsize>(words.size() * 4));
-  if (!file.flush()) fail(fmt::format("{}: cannot be written", module.string()));
-}
-
 std::vector<std::string> checkSpirv(const std::vector<std::uint32_t>& words) {
-  const std::vector<Instruction> all = instructions(words);
+  const std::vector<SpirvInstruction> all = spirvInstructions(words);
   std::map<std::uint32_t, std::string> names;
   std::set<std::uint32_t> decorated, glslSets;
-  for (const Instruction& i : all) {
+  for (const SpirvInstruction& i : all) {
     if (isNoContraction(i)) decorated.insert(i.operands[0]);
     if (i.op == kOpName && i.count >= 2) names[i.operands[0]] = i.text(1);
     if (i.op == kOpExtInstImport && i.count >= 2 && i.text(1) == "GLSL.std.450") glslSets.insert(i.operands[0]);
   }
   std::vector<std::string> violations;
-  const auto report = [&](const Instruction& i, const std::string& what) {  // operands are: result type, result, ...
+  const auto report = [&](const SpirvInstruction& i,
+                          const std::string& what) {  // operands are: result type, result, ...
     const auto name = names.find(i.operands[1]);
     violations.push_back(fmt::format("word {}: {} %{}{}", i.at, what, i.operands[1],
                                      name == names.end() ? "" : " (" + name->second + ")"));
   };
-  for (const Instruction& i : all) {
+  for (const SpirvInstruction& i : all) {
     if (i.count < 2) continue;
     if (const auto op = kContractible.find(i.op); op != kContractible.end() && !decorated.count(i.operands[1]))
       report(i, fmt::format("{} without NoContraction", op->second));
@@ -128,17 +84,17 @@ std::vector<std::string> checkSpirv(const std::vector<std::uint32_t>& words) {
 std::vector<std::string> checkSpirv(const std::filesystem::path& module) { return checkSpirv(readSpirv(module)); }
 
 void decorateNoContraction(std::vector<std::uint32_t>& words) {
-  const std::vector<Instruction> all = instructions(words);
+  const std::vector<SpirvInstruction> all = spirvInstructions(words);
   std::set<std::uint32_t> decorated;
-  for (const Instruction& i : all)
+  for (const SpirvInstruction& i : all)
     if (isNoContraction(i)) decorated.insert(i.operands[0]);
   std::vector<std::uint32_t> added;
-  for (const Instruction& i : all)
+  for (const SpirvInstruction& i : all)
     if (i.count >= 2 && kContractible.count(i.op) && !decorated.count(i.operands[1]))
       added.insert(added.end(), {(3u << 16) | kOpDecorate, i.operands[1], kNoContraction});
   // Annotations stand right before the types and constants (SPIR-V 2.4, logical layout).
-  const auto types = std::find_if(all.begin(), all.end(),
-                                  [](const Instruction& i) { return i.op >= kOpTypeFirst && i.op <= kOpTypeLast; });
+  const auto types = std::find_if(
+      all.begin(), all.end(), [](const SpirvInstruction& i) { return i.op >= kOpTypeFirst && i.op <= kOpTypeLast; });
   if (!added.empty() && types != all.end())
     words.insert(words.begin() + static_cast<std::ptrdiff_t>(types->at), added.begin(), added.end());
 }

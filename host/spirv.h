@@ -13,6 +13,17 @@ namespace tessera {
 std::vector<std::uint32_t> readSpirv(const std::filesystem::path& module);
 void writeSpirv(const std::filesystem::path& module, const std::vector<std::uint32_t>& words);
 
+struct SpirvInstruction {
+  std::uint32_t op;
+  const std::uint32_t* operands;  ///< the words after the first
+  std::size_t count;              ///< of operands
+  std::size_t at;                 ///< index of the first word
+
+  std::string text(std::size_t from) const;  ///< a literal string among the operands
+};
+/// They point into `words`. Throws kFailure where one does not fit.
+std::vector<SpirvInstruction> spirvInstructions(const std::vector<std::uint32_t>& words);
+
 /// checkSpirv() of kernel-cache.h, on words.
 std::vector<std::string> checkSpirv(const std::vector<std::uint32_t>& words);
 

@@ -1,7 +1,13 @@
 #include "host/stages.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <stdexcept>
+
+#include "host/error.h"
+#include "host/user-kernel.h"
 
 namespace tessera {
 
@@ -57,6 +63,35 @@ KernelRequest kernelRequest(std::string_view name, const Plan& plan) {
     if (std::ranges::find(axis.stages, name) != axis.stages.end())
       request.variantName += (request.variantName.empty() ? "" : " ") + axis.name + "=" + plan.resolved.get(axis.name);
   return request;
+}
+
+std::vector<KernelRequest> kernelRequests(const Plan& plan, const KernelFiles& files) {
+  const std::vector<std::string> names = stagesOf(plan);
+  for (const auto& [stage, file] : files)
+    if (std::ranges::find(names, stage) == names.end())
+      failUsage(fmt::format("kernel {} ({}): this plan does not run such a stage; it runs {}", stage, file.string(),
+                            fmt::join(names, ", ")));
+  std::vector<KernelRequest> requests;
+  for (const std::string& name : names) {
+    const auto file = files.find(name);
+    KernelRequest own = kernelRequest(name, plan);
+    requests.push_back(file == files.end() ? std::move(own) : requestOf(std::move(own), file->second));
+  }
+  return requests;
+}
+
+std::vector<CompiledKernel> compileStages(KernelCache& cache, const Plan& plan) {
+  std::vector<CompiledKernel> kernels = cache.getAll(kernelRequests(plan, cache.files()));
+  if (cache.files().empty()) return kernels;
+  const std::vector<CompiledKernel> own = cache.getAll(kernelRequests(plan, {}));
+  KernelInterface all;  // the buffers and uniforms that there are
+  for (const CompiledKernel& kernel : own) {
+    all.elementSizes.insert(kernel.interface.elementSizes.begin(), kernel.interface.elementSizes.end());
+    all.fields.insert(kernel.interface.fields.begin(), kernel.interface.fields.end());
+  }
+  for (std::size_t i = 0; i < kernels.size(); ++i)
+    if (!kernels[i].file.empty()) checkInterface(kernels[i], own[i].interface, all);
+  return kernels;
 }
 
 }  // namespace tessera

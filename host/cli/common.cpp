@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cstdio>
 
@@ -11,6 +12,8 @@
 #include "host/cpu/cpu-device.h"
 #include "host/error.h"
 #include "host/files.h"
+#include "host/stages.h"
+#include "host/user-kernel.h"
 #include "host/vulkan/vulkan-device.h"
 
 namespace tessera::cli {
@@ -54,6 +57,14 @@ void addSettings(CLI::App& app, Options& options) {
       ->allow_extra_args(false);
 }
 
+void addKernelFiles(CLI::App& app, Options& options) {
+  app.add_option(
+         "--kernel", options.kernels,
+         "run FILE (.slang, .hlsl, or GLSL as .comp or .glsl) in place of a stage's own kernel; repeat for more")
+      ->type_name("STAGE=FILE")
+      ->allow_extra_args(false);
+}
+
 void addThreads(CLI::App& app, Options& options) {
   app.add_option("--threads", options.threads, "threads of the CPU device; all cores if not given")
       ->type_name("N")
@@ -77,6 +88,26 @@ Variant variantOf(const Options& options) {
   Variant variant;
   for (const auto& setting : options.settings) variant.set(setting);
   return variant;
+}
+
+KernelFiles kernelFilesOf(const Options& options) {
+  KernelFiles files;
+  for (const std::string& text : options.kernels) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos) failUsage(fmt::format("--kernel {}: takes STAGE=FILE", text));
+    const std::string stage = text.substr(0, equals);
+    const fs::path file = text.substr(equals + 1);
+    if (std::ranges::find(stages(), stage, &Stage::name) == stages().end()) {
+      std::vector<std::string> names;
+      for (const Stage& s : stages()) names.push_back(s.name);
+      failUsage(fmt::format("--kernel {}: no such stage; there are {}", text, fmt::join(names, ", ")));
+    }
+    std::error_code ignored;
+    if (!fs::is_regular_file(file, ignored)) failUsage(fmt::format("--kernel {}: no such file", text));
+    languageOf(file);
+    if (!files.emplace(stage, file).second) failUsage(fmt::format("--kernel {}: the stage has a file already", text));
+  }
+  return files;
 }
 
 Scene sceneOf(const Options& options) {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "host/device.h"
-#include "host/kernel.h"
+#include "host/kernel-cache.h"
 #include "host/scene.h"
 #include "host/variant.h"
 
@@ -19,18 +19,22 @@ struct Options {
   std::string input;
   std::string size;                   ///< "WxH"; empty: the scene's
   std::vector<std::string> settings;  ///< "axis=value"
+  std::vector<std::string> kernels;   ///< "STAGE=FILE"
   std::vector<std::string> devices;   ///< "cpu", "vulkan", "vulkan:N", "vulkan:NAME"
   unsigned threads = 0;               ///< of the CPU device; 0: all cores
 };
 
 void addInput(CLI::App& app, Options& options);
 void addSettings(CLI::App& app, Options& options);
+void addKernelFiles(CLI::App& app, Options& options);
 void addThreads(CLI::App& app, Options& options);
 void addRepeat(CLI::App& app, unsigned& repeat);
 /// `many`: the option may be repeated.
 void addDevice(CLI::App& app, Options& options, bool many);
 
 Variant variantOf(const Options& options);
+/// The user's kernels, of which each file is there and in a language that we know. Throws kUsage.
+KernelFiles kernelFilesOf(const Options& options);
 /// Loads the input; a size that was given replaces the scene's, and its camera follows.
 Scene sceneOf(const Options& options);
 std::unique_ptr<Device> openDevice(const std::string& name, unsigned threads);

@@ -1,24 +1,41 @@
 #include "host/cli/measure.h"
 
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
 #include <set>
 #include <tuple>
 
 #include "host/cli/progress.h"
+#include "host/error.h"
 #include "host/stages.h"
+#include "host/user-kernel.h"
 
 namespace tessera::cli {
 
 void compileKernels(KernelCache& kernels, const std::vector<Plan>& plans) {
   std::vector<KernelRequest> requests;
-  std::set<std::tuple<std::string, Route, VariantModules>> seen;
-  for (const auto& plan : plans)
-    for (const auto& stage : stagesOf(plan)) {
-      KernelRequest request = kernelRequest(stage, plan);
-      if (seen.emplace(request.stage, request.route, request.modules).second)
+  std::set<std::tuple<std::string, std::filesystem::path, Route, VariantModules>> seen;
+  const auto add = [&](std::vector<KernelRequest> more) {
+    for (KernelRequest& request : more)
+      if (seen.emplace(request.stage, request.file, request.route, request.modules).second)
         requests.push_back(std::move(request));
+  };
+  for (const auto& plan : plans) {
+    add(kernelRequests(plan, {}));
+    try {
+      if (!kernels.files().empty()) add(kernelRequests(plan, kernels.files()));
+    } catch (const Error& error) {
+      if (error.code() == ExitCode::kUsage) throw;  // a device that cannot run a user's kernel says so when it renders
     }
+  }
   Progress progress("compiling kernels", requests.size());
-  kernels.getAll(requests, [&](std::size_t done, std::size_t) { progress.at(done); });
+  std::set<std::string> warnings;
+  for (const auto& kernel : kernels.getAll(requests, [&](std::size_t done, std::size_t) { progress.at(done); }))
+    if (!kernel.file.empty()) warnings.insert(exactnessWarning(kernel));
+  for (const auto& warning : warnings)
+    if (!warning.empty()) fmt::print(stderr, "warning: {}\n", warning);
 }
 
 Run beginRun(const Scene& scene, const Variant& variant, const Device& device, const KernelCache& kernels) {
@@ -38,8 +55,10 @@ Frame measure(Run& run, Rasterizer& rasterizer, KernelCache& kernels, unsigned r
   run.variant = first.plan.resolved;
   run.plan = first.plan.entries;
   run.counters = first.counters;
-  for (const auto& stage : stagesOf(first.plan))
-    run.kernels[stage] = kernels.get(kernelRequest(stage, first.plan)).hash;
+  for (const auto& kernel : kernels.getAll(kernelRequests(first.plan, kernels.files()))) {
+    run.kernels[kernel.stage] = kernel.hash;
+    if (!kernel.file.empty()) run.kernelFiles[kernel.stage] = {kernel.file.string(), kernel.fileHash};
+  }
   for (unsigned i = 0; i < repeat; ++i) {
     if (progress) progress(i + 1);
     run.samples.push_back(rasterizer.render(*run.scene, asked, {.readBack = false}).times);

@@ -10,7 +10,8 @@
 
 namespace tessera::cli {
 
-/// Compiles what the plans need, all kernels at once on all cores, with progress.
+/// Compiles what the plans need, all kernels at once on all cores, with progress; a user's kernel whose SPIR-V is not
+/// exact gets a line on stderr.
 void compileKernels(KernelCache& kernels, const std::vector<Plan>& plans);
 
 /// A run that has not rendered yet: scene, variant as it was asked for, device and tools.

@@ -39,7 +39,8 @@ std::vector<Attempt> listAttempts(const ParityOptions& options) {
 
 class Parity {
  public:
-  explicit Parity(const ParityOptions& options) : options_(options), attempts_(listAttempts(options)) {
+  explicit Parity(const ParityOptions& options)
+      : options_(options), attempts_(listAttempts(options)), kernels_({.files = kernelFilesOf(options)}) {
     for (const auto& attempt : attempts_)
       if (auto& device = devices_[attempt.device]; !device) device = openDevice(attempt.device, options.threads);
     if (options.devices.empty() && devices_.size() == 1 && devices_.contains("cpu"))
@@ -162,6 +163,7 @@ Command addParity(CLI::App& app) {
   addInput(*command, *options);
   addDevice(*command, *options, true);
   addSettings(*command, *options);
+  addKernelFiles(*command, *options);
   addThreads(*command, *options);
   addRepeat(*command, options->repeat);
   command

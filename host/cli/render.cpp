@@ -74,9 +74,9 @@ ExitCode render(const RenderOptions& options) {
   for (const auto& output : options.outputs) checkImagePath(output);
   if (!options.json.empty()) checkOutputPath(options.json, options.input);
   const Variant variant = variantOf(options);
+  KernelCache kernels({.files = kernelFilesOf(options)});
   const auto device = openDevice(options);
   const Scene scene = sceneOf(options);
-  KernelCache kernels;
   Run run = beginRun(scene, variant, *device, kernels);
   const auto writeRow = [&] {
     if (!options.json.empty()) writeText(options.json, rowText(run) + '\n');
@@ -110,6 +110,7 @@ Command addRender(CLI::App& app) {
       ->allow_extra_args(false);
   addDevice(*command, *options, false);
   addSettings(*command, *options);
+  addKernelFiles(*command, *options);
   addThreads(*command, *options);
   addRepeat(*command, options->repeat);
   command->add_option("--json", options->json, "write the result row (one line of JSON) to FILE, or - for stdout")
