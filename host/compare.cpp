@@ -13,7 +13,7 @@
 namespace tessera {
 namespace {
 
-enum class Part { kNone, kCoverage, kId, kDepth, kHits, kColour };
+enum class Part { kNone, kCoverage, kId, kDepth, kHits, kAttribute, kColour };
 
 // What both framebuffers hold, read pixel by pixel.
 class Pair {
@@ -24,24 +24,30 @@ class Pair {
         ids_(both(a.ids, b.ids)),
         depth_(both(a.depth, b.depth)),
         hits_(both(a.hits, b.hits)),
+        attribute_(both(a.attribute, b.attribute)),
         colour_(both(a.colour, b.colour)) {
     if (a.width != b.width || a.height != b.height) {
       failUsage(fmt::format("the images are {} x {} and {} x {} pixels; they should have one size", a.width, a.height,
                             b.width, b.height));
     }
-    if (!ids_ && !depth_ && !hits_ && !colour_) failUsage("the images have no channel in common: nothing to compare");
+    if (!ids_ && !depth_ && !hits_ && !attribute_ && !colour_)
+      failUsage("the images have no channel in common: nothing to compare");
   }
 
   bool hasColour() const { return colour_; }
+  bool hasAttribute() const { return attribute_; }
   bool covered(std::size_t k) const { return ids_ ? a_.ids[k] != kNoTriangle : hits_ ? a_.hits[k] != 0 : true; }
   bool coverageDiffers(std::size_t k) const {
     if (ids_) return (a_.ids[k] == kNoTriangle) != (b_.ids[k] == kNoTriangle);
     return hits_ && (a_.hits[k] == 0) != (b_.hits[k] == 0);
   }
-  bool idDiffers(std::size_t k) const { return ids_ && a_.ids[k] != b_.ids[k]; }
-  bool depthDiffers(std::size_t k) const {
-    return depth_ && std::bit_cast<std::uint32_t>(a_.depth[k]) != std::bit_cast<std::uint32_t>(b_.depth[k]);
+  bool idDiffers(std::size_t k) const {
+    if (!ids_ || a_.ids[k] == b_.ids[k]) return false;
+    const bool known = a_.ids[k] != kUnknownTriangle && b_.ids[k] != kUnknownTriangle;
+    return known || coverageDiffers(k);
   }
+  bool depthDiffers(std::size_t k) const { return depth_ && bitsDiffer(a_.depth[k], b_.depth[k]); }
+  bool attributeDiffers(std::size_t k) const { return attribute_ && bitsDiffer(a_.attribute[k], b_.attribute[k]); }
   bool hitsDiffer(std::size_t k) const { return hits_ && a_.hits[k] != b_.hits[k]; }
   bool colourDiffers(std::size_t k) const {
     return colour_ && std::memcmp(&a_.colour[k], &b_.colour[k], sizeof(glm::vec3)) != 0;
@@ -49,12 +55,13 @@ class Pair {
 
   /// The most telling difference of a pixel.
   Part part(std::size_t k) const {
-    return coverageDiffers(k) ? Part::kCoverage
-           : idDiffers(k)     ? Part::kId
-           : depthDiffers(k)  ? Part::kDepth
-           : hitsDiffer(k)    ? Part::kHits
-           : colourDiffers(k) ? Part::kColour
-                              : Part::kNone;
+    return coverageDiffers(k)    ? Part::kCoverage
+           : idDiffers(k)        ? Part::kId
+           : depthDiffers(k)     ? Part::kDepth
+           : hitsDiffer(k)       ? Part::kHits
+           : attributeDiffers(k) ? Part::kAttribute
+           : colourDiffers(k)    ? Part::kColour
+                                 : Part::kNone;
   }
 
  private:
@@ -62,8 +69,11 @@ class Pair {
   static bool both(const std::vector<T>& a, const std::vector<T>& b) {
     return !a.empty() && !b.empty();
   }
+  static bool bitsDiffer(float a, float b) {
+    return std::bit_cast<std::uint32_t>(a) != std::bit_cast<std::uint32_t>(b);
+  }
   const Framebuffer &a_, &b_;
-  bool ids_, depth_, hits_, colour_;
+  bool ids_, depth_, hits_, attribute_, colour_;
 };
 
 // float32 numbers in order, -0 and +0 at 0: neighbours are 1 apart.
@@ -97,13 +107,15 @@ Difference compare(const Framebuffer& a, const Framebuffer& b) {
   const Pair pair(a, b);
   Difference result;
   result.pixels = a.pixels();
-  double squares = 0;
+  double squares = 0, attributeSquares = 0;
+  std::uint64_t values = 0;  // pixels that have one in both
   for (std::size_t k = 0; k < a.pixels(); ++k) {
     const bool coverage = pair.coverageDiffers(k), depth = pair.depthDiffers(k);
     result.coverage += coverage;
     result.id += pair.idDiffers(k);
     result.depth += depth;
     result.hits += pair.hitsDiffer(k);
+    result.attribute += pair.attributeDiffers(k);
     result.colour += pair.colourDiffers(k);
     if (depth && !coverage) {
       const double apart = std::abs(static_cast<double>(a.depth[k]) - static_cast<double>(b.depth[k]));
@@ -112,12 +124,19 @@ Difference compare(const Framebuffer& a, const Framebuffer& b) {
           std::max(result.depthMaxAbs, std::isnan(apart) ? std::numeric_limits<double>::infinity() : apart);
       result.depthMaxUlp = std::max(result.depthMaxUlp, steps);
     }
+    if (pair.hasAttribute() && !std::isnan(a.attribute[k]) && !std::isnan(b.attribute[k])) {
+      const double apart = std::abs(static_cast<double>(a.attribute[k]) - static_cast<double>(b.attribute[k]));
+      result.attributeMax = std::max(result.attributeMax, apart);
+      attributeSquares += apart * apart;
+      ++values;
+    }
     if (pair.colourDiffers(k)) squares += squaredDistance(a.colour[k], b.colour[k]);
     if (result.firstX < 0 && pair.part(k) != Part::kNone) {
       result.firstX = static_cast<std::int64_t>(k % a.width);
       result.firstY = static_cast<std::int64_t>(k / a.width);
     }
   }
+  if (values != 0) result.attributeRms = std::sqrt(attributeSquares / static_cast<double>(values));
   const double mean = squares / (3 * static_cast<double>(a.pixels()));
   result.psnr =
       pair.hasColour() ? -10 * std::log10(mean) : std::numeric_limits<double>::quiet_NaN();  // log10(0) is -infinity
@@ -147,6 +166,7 @@ std::vector<glm::vec3> differencePicture(const Framebuffer& a, const Framebuffer
         picture.push_back(yellow);
         break;
       case Part::kHits:
+      case Part::kAttribute:
       case Part::kColour:
         picture.push_back(purple);
         break;

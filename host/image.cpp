@@ -56,6 +56,7 @@ auto channelsOf(Frame& frame) {
   add("G", TypeDesc::FLOAT, frame.colour, 4);
   add("B", TypeDesc::FLOAT, frame.colour, 8);
   add("Z", TypeDesc::FLOAT, frame.depth, 0);
+  add("A", TypeDesc::FLOAT, frame.attribute, 0);
   add("id", TypeDesc::UINT32, frame.ids, 0);
   add("hits", TypeDesc::UINT32, frame.hits, 0);
   return channels;
@@ -91,8 +92,9 @@ bool writeExr(OIIO::ImageOutput& out, const std::string& name, const Framebuffer
   return out.close();
 }
 
-bool writePng(OIIO::ImageOutput& out, const std::string& name, const Framebuffer& frame) {
-  const Picture picture = makePicture(frame);
+bool writePng(OIIO::ImageOutput& out, const std::string& name, const Framebuffer& frame,
+              const std::optional<ValueRange>& range) {
+  const Picture picture = makePicture(frame, range);
   OIIO::ImageSpec spec(static_cast<int>(frame.width), static_cast<int>(frame.height), picture.channels,
                        TypeDesc::UINT8);
   spec.attribute("oiio:ColorSpace", "sRGB");
@@ -135,7 +137,7 @@ void checkImagePath(const fs::path& path) {
   }
 }
 
-void writeImage(const fs::path& path, const Framebuffer& frame) {
+void writeImage(const fs::path& path, const Framebuffer& frame, const std::optional<ValueRange>& range) {
   checkImagePath(path);
   if (channelsOf(frame).empty()) fail(fmt::format("{}: the frame holds nothing to write", path.string()));
   const bool exr = extensionOf(path) == ".exr";
@@ -143,7 +145,7 @@ void writeImage(const fs::path& path, const Framebuffer& frame) {
   const auto out = OIIO::ImageOutput::create(exr ? "openexr" : "png");
   if (!out) fail(fmt::format("{}: {}", path.string(), firstLine(OIIO::geterror())));
   std::error_code error;
-  if (!(exr ? writeExr(*out, beside.string(), frame) : writePng(*out, beside.string(), frame))) {
+  if (!(exr ? writeExr(*out, beside.string(), frame) : writePng(*out, beside.string(), frame, range))) {
     const std::string why = firstLine(out->geterror());
     fs::remove(beside, error);
     fail(fmt::format("{}: cannot be written: {}", path.string(), why));
@@ -180,6 +182,7 @@ Framebuffer readImage(const fs::path& path) {
 
   const int id = channelOf(spec, name, "id", TypeDesc::UINT32), z = channelOf(spec, name, "Z", TypeDesc::FLOAT);
   const int hits = channelOf(spec, name, "hits", TypeDesc::UINT32);
+  const int attribute = channelOf(spec, name, "A", TypeDesc::FLOAT);
   const bool shaded = channelOf(spec, name, "R", TypeDesc::FLOAT) >= 0 &&
                       channelOf(spec, name, "G", TypeDesc::FLOAT) >= 0 &&
                       channelOf(spec, name, "B", TypeDesc::FLOAT) >= 0;
@@ -204,6 +207,7 @@ Framebuffer readImage(const fs::path& path) {
     if (id >= 0) frame.ids.resize(after);
     if (z >= 0) frame.depth.resize(after);
     if (hits >= 0) frame.hits.resize(after);
+    if (attribute >= 0) frame.attribute.resize(after);
     if (shaded) frame.colour.resize(after);
     for (const auto& channel : channelsOf(frame)) {
       const std::byte* from = rows.data() + spec.pixel_bytes(0, spec.channelindex(channel.name), true);

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <vector>
 
 #include "host/framebuffer.h"
@@ -11,33 +12,39 @@ namespace tessera {
 
 /// Throws kUsage unless the name ends in .png or .exr and its folder can be written: called before any work is done.
 void checkImagePath(const std::filesystem::path& path);
-/// .png: 8-bit sRGB of `colour` if there is any, else of the hits (a logarithmic heat map, dark blue 1 to light yellow
-/// for the most of this frame), else of the depth (light is near, dark is far, over the span of this frame); in the
-/// last two an empty pixel is transparent. .exr: `id` (uint32) and `Z` (float32), `hits` (uint32) under commit=count,
-/// and R, G, B (float32, linear) if shaded; bit-exact. Written beside the name and renamed. Throws kUsage as
-/// checkImagePath does, kFailure when it cannot be written; one line.
-void writeImage(const std::filesystem::path& path, const Framebuffer& frame);
+/// .png: 8-bit sRGB of `colour` if there is any, else of the attribute (dark blue is the least of `range`, light yellow
+/// the most; the span of this frame where no range is given), else of the hits (a logarithmic heat map, dark blue 1 to
+/// light yellow for the most of this frame), else of the depth (light is near, dark is far, over the span of this
+/// frame); in the last three an empty pixel is transparent. .exr: `id` (uint32) and `Z` (float32), `A` (float32) where
+/// the scene has an attribute, `hits` (uint32) under commit=count, and R, G, B (float32, linear) if shaded; bit-exact.
+/// Written beside the name and renamed. Throws kUsage as checkImagePath does, kFailure when it cannot be written; one
+/// line.
+void writeImage(const std::filesystem::path& path, const Framebuffer& frame,
+                const std::optional<ValueRange>& range = {});
 /// Reads what writeImage put in an .exr. Throws kUsage with one line when it is missing, broken or holds no such
 /// channels.
 Framebuffer readImage(const std::filesystem::path& path);
 
-/// How two framebuffers differ in what both hold. They have one size and something to compare (kUsage otherwise).
+/// How two framebuffers differ in what both hold. Where one knows no id (kUnknownTriangle) its pixel is covered, and
+/// agrees with any id. They have one size and something to compare (kUsage otherwise).
 struct Difference {
-  std::uint64_t pixels = 0;               ///< compared
-  std::uint64_t coverage = 0;             ///< covered in one and not in the other
-  std::uint64_t id = 0;                   ///< another id, coverage differences among them
-  std::uint64_t depth = 0;                ///< other depth bits
-  std::uint64_t hits = 0;                 ///< other hit counts
-  std::uint64_t colour = 0;               ///< other colour bits
-  double depthMaxAbs = 0;                 ///< over the pixels on whose coverage both agree; infinity if one is NaN
-  double depthMaxUlp = 0;                 ///< the same as distance in float32 steps
-  double psnr = 0;                        ///< of colour, dB; infinity when equal, NaN when there is none to compare
-  std::int64_t firstX = -1, firstY = -1;  ///< first differing pixel in row order, -1 if none
-  bool equal() const { return id == 0 && depth == 0 && hits == 0 && colour == 0; }
+  std::uint64_t pixels = 0;                   ///< compared
+  std::uint64_t coverage = 0;                 ///< covered in one and not in the other
+  std::uint64_t id = 0;                       ///< another id, coverage differences among them
+  std::uint64_t depth = 0;                    ///< other depth bits
+  std::uint64_t hits = 0;                     ///< other hit counts
+  std::uint64_t colour = 0;                   ///< other colour bits
+  std::uint64_t attribute = 0;                ///< other bits of the attribute
+  double depthMaxAbs = 0;                     ///< over the pixels on whose coverage both agree; infinity if one is NaN
+  double depthMaxUlp = 0;                     ///< the same as distance in float32 steps
+  double attributeMax = 0, attributeRms = 0;  ///< of the differences of the attribute, where both have a value
+  double psnr = 0;                            ///< of colour, dB; infinity when equal, NaN when there is none to compare
+  std::int64_t firstX = -1, firstY = -1;      ///< first differing pixel in row order, -1 if none
+  bool equal() const { return id == 0 && depth == 0 && hits == 0 && colour == 0 && attribute == 0; }
 };
 Difference compare(const Framebuffer& a, const Framebuffer& b);
 /// A picture of where they differ, linear RGB: light grey where both agree (darker where something is drawn), vermilion
-/// for coverage, blue for another id, yellow for depth alone, purple for hits or colour alone.
+/// for coverage, blue for another id, yellow for depth alone, purple for hits, attribute or colour alone.
 std::vector<glm::vec3> differencePicture(const Framebuffer& a, const Framebuffer& b);
 
 }  // namespace tessera

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace tessera {
 namespace {
@@ -31,6 +32,22 @@ glm::vec3 heat(float t) { return fromOklab(0.32f + 0.62f * t, -0.04f * t, -0.13f
 
 void append(Picture& picture, const glm::vec3& linear) {
   for (int c = 0; c < 3; ++c) picture.pixels.push_back(toSrgb(linear[c]));
+}
+
+Picture valueMap(const std::vector<float>& values, std::optional<ValueRange> range) {
+  if (!range) {
+    range.emplace(ValueRange{std::numeric_limits<float>::max(), std::numeric_limits<float>::lowest()});
+    for (const float value : values)
+      if (!std::isnan(value)) range->least = std::min(range->least, value), range->most = std::max(range->most, value);
+  }
+  const double span = double{range->most} - range->least;  // may be negative: the map is turned round
+  Picture picture;
+  for (const float value : values) {
+    const double part = span != 0 ? (value - range->least) / span : 0.5;
+    append(picture, std::isnan(value) ? glm::vec3(0) : heat(static_cast<float>(std::clamp(part, 0.0, 1.0))));
+    picture.pixels.push_back(std::isnan(value) ? 0 : 255);
+  }
+  return picture;
 }
 
 Picture heatMap(const std::vector<std::uint32_t>& hits) {
@@ -63,12 +80,13 @@ Picture greyDepth(const Framebuffer& frame) {
 
 }  // namespace
 
-Picture makePicture(const Framebuffer& frame) {
+Picture makePicture(const Framebuffer& frame, const std::optional<ValueRange>& range) {
   if (!frame.colour.empty()) {
     Picture picture{3, {}};
     for (const glm::vec3& colour : frame.colour) append(picture, colour);
     return picture;
   }
+  if (!frame.attribute.empty()) return valueMap(frame.attribute, range);
   if (!frame.hits.empty()) return heatMap(frame.hits);
   if (!frame.depth.empty()) return greyDepth(frame);
   return {};

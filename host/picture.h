@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "host/framebuffer.h"
@@ -13,8 +14,8 @@ struct Picture {
   std::vector<std::uint8_t> pixels;  ///< row-major, interleaved
 };
 
-/// The colour if there is any; else a heat map of the hits if there are any; else the depth in grey. Empty if there is
-/// none.
-Picture makePicture(const Framebuffer& frame);
+/// The colour if there is any; else the attribute, over `range` or over what this frame holds; else a heat map of the
+/// hits; else the depth in grey; of these whatever the frame has. Empty if it has none.
+Picture makePicture(const Framebuffer& frame, const std::optional<ValueRange>& range = {});
 
 }  // namespace tessera

@@ -119,6 +119,7 @@ class Planner {
     wide();
     choose("counters", "basic");
     shading();
+    attribute();
     return std::move(plan_);
   }
 
@@ -230,7 +231,20 @@ class Planner {
     if (shade == "smooth" && scene_.normals.size() != scene_.positions.size())
       failUsage("shade=smooth: the scene has no vertex normals; set shade=flat");
     note("shade", plan_.shade, plan_.shade ? "shade=" + shade : "no colours asked for (shade)");
-    note("attributes", shade == "smooth", shade == "smooth" ? "normals are interpolated" : "nothing interpolates them");
+    note("shade: normals", shade == "smooth", shade == "smooth" ? "they are interpolated" : "nothing interpolates them");
+  }
+
+  void attribute() {
+    plan_.attribute = !scene_.attribute.empty();
+    note("attribute", plan_.attribute,
+         plan_.attribute ? "a raster of the values of " + scene_.attributeName : "no values asked for (attribute)");
+    if (!plan_.attribute) return;
+    if (scene_.attribute.size() != scene_.vertexCount())
+      failUsage(fmt::format("attribute {}: {} values for {} vertices; one a vertex would be right", scene_.attributeName,
+                            scene_.attribute.size(), scene_.vertexCount()));
+    if (plan_.resolved.get("commit") == "count")
+      failUsage(fmt::format("attribute {}: commit=count keeps no ids to interpolate by; leave commit unset",
+                            scene_.attributeName));
   }
 
   const Scene& scene_;

@@ -107,6 +107,7 @@ class FrameRun {
     }
     passes_.buffer("corners", vertices * kCornerBytes);
     if (value("shade") == "smooth") passes_.write("normals", scene_.normals);
+    if (frame_.plan.attribute) passes_.write("attribute", scene_.attribute);
     passes_.buffer("counters", 8 * kernelCounterCount());
     for (const char* field :
          {"triangleCount", "triangleBase", "extraCapacity", "itemCapacity", "extraCount", "itemCount", "entryCapacity",
@@ -174,6 +175,13 @@ class FrameRun {
       for (std::size_t b = 0; b < batches_.size(); ++b) {
         useBatch(b);
         passes_.overElements("shade", pixels());
+      }
+    }
+    if (frame_.plan.attribute) {
+      passes_.buffer("values", pixels() * 4);
+      for (std::size_t b = 0; b < batches_.size(); ++b) {
+        useBatch(b);
+        passes_.overElements("attribute", pixels());
       }
     }
     addCounts();
@@ -445,6 +453,7 @@ class FrameRun {
     append(image.depth, "depth");
     append(image.ids, "ids");
     if (frame_.plan.shade) append(image.colour, "colour");
+    if (frame_.plan.attribute) append(image.attribute, "values");
   }
 
   // ---- stage outputs

@@ -42,6 +42,15 @@
 //                slivers stay bounded.)
 //   Visible      Smaller depth wins; at equal depth the lower id. An empty pixel has id 4294967295 and depth 1.0; 1.0
 //                is drawn.
+//   Attributes   Of the id's triangle v0 v1 v2 as it was before clipping and orientation, with values a0 a1 a2: A = (w0
+//                a0 + w1 a1) + w2 a2, kept within a0, a1, a2 as depth within its piece. Where the three w are equal and
+//                no vertex is outside a clip plane, linear on the screen, over the snapped X and Y: with E and area2 as
+//                above, w0 = float(E_12(p)) / float(area2), w1 = float(E_20(p)) / float(area2), w2 = float(E_01(p)) /
+//                float(area2). Elsewhere perspective-correct: px = ((i + 0.5) - W/2) / (W/2), py = ((j + 0.5) - H/2) /
+//                (H/2), xk = xk - px wk, yk = yk - py wk of each vertex k; u0 = x1 y2 - x2 y1, u1 = x2 y0 - x0 y2, u2 =
+//                x0 y1 - x1 y0, negated where (u0 + u1) + u2 < 0, then u = (u > 0) ? u : 0; wk = uk / ((u0 + u1) + u2),
+//                or 1, 0, 0 where that sum is not > 0. A is NaN, 0x7fc00000, in an empty pixel and where one of a0, a1,
+//                a2 is not finite.
 #pragma once
 
 #include <cstdint>

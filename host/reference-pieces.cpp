@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "host/reference-clip.h"
+#include "host/reference-project.h"
 #include "host/reference.h"
 
 namespace tessera::reference {
@@ -13,11 +14,6 @@ namespace {
 bool isFinite(const glm::vec4& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w);
 }
-
-struct Snapped {
-  std::int32_t x, y;  ///< 1/256 pixel, |.| <= 2^24
-  float z;
-};
 
 // A position in pixels to 1/256 pixel, by the nearest multiple of 2^-bits pixels, ties to even; with no bits, by the
 // nearest sample. Nothing if it is not within 2^24 either way, NaN included.
@@ -34,16 +30,6 @@ std::optional<std::int32_t> snap(float position, int bits) {
   return static_cast<std::int32_t>(snapped);
 }
 
-std::optional<Snapped> project(const glm::vec4& v, float halfWidth, float halfHeight, int bits) {
-  const float r = 1.0f / v.w;
-  if (!(v.w > 0) || !std::isfinite(r)) return std::nullopt;
-  const auto x = snap((v.x * r) * halfWidth + halfWidth, bits);
-  const auto y = snap((v.y * r) * halfHeight + halfHeight, bits);
-  if (!x || !y) return std::nullopt;
-  const float z = v.z * r;
-  return Snapped{*x, *y, z > 0 ? (z < 1 ? z : 1.0f) : 0.0f};
-}
-
 // Twice the signed area in (1/256 pixel)^2, at most 2^51; negative is counter-clockwise on the screen, whose y points
 // down.
 std::int64_t doubleArea(const Snapped& a, const Snapped& b, const Snapped& c) {
@@ -52,11 +38,9 @@ std::int64_t doubleArea(const Snapped& a, const Snapped& b, const Snapped& c) {
 
 void addPiece(std::uint32_t id, const glm::vec4& a, const glm::vec4& b, const glm::vec4& c, const Scene& scene,
               const Image& image, std::vector<Piece>& pieces, Counts& counts) {
-  const float halfWidth = static_cast<float>(scene.width) * 0.5f;
-  const float halfHeight = static_cast<float>(scene.height) * 0.5f;
-  const auto v0 = project(a, halfWidth, halfHeight, image.subPixelBits);
-  auto v1 = project(b, halfWidth, halfHeight, image.subPixelBits);
-  auto v2 = project(c, halfWidth, halfHeight, image.subPixelBits);
+  const auto v0 = project(a, scene, image);
+  auto v1 = project(b, scene, image);
+  auto v2 = project(c, scene, image);
   if (!v0 || !v1 || !v2) {
     ++counts.behind;
     return;
@@ -76,6 +60,18 @@ void addPiece(std::uint32_t id, const glm::vec4& a, const glm::vec4& b, const gl
 }
 
 }  // namespace
+
+std::optional<Snapped> project(const glm::vec4& v, const Scene& scene, const Image& image) {
+  const float halfWidth = static_cast<float>(scene.width) * 0.5f;
+  const float halfHeight = static_cast<float>(scene.height) * 0.5f;
+  const float r = 1.0f / v.w;
+  if (!(v.w > 0) || !std::isfinite(r)) return std::nullopt;
+  const auto x = snap((v.x * r) * halfWidth + halfWidth, image.subPixelBits);
+  const auto y = snap((v.y * r) * halfHeight + halfHeight, image.subPixelBits);
+  if (!x || !y) return std::nullopt;
+  const float z = v.z * r;
+  return Snapped{*x, *y, z > 0 ? (z < 1 ? z : 1.0f) : 0.0f};
+}
 
 std::vector<glm::vec4> transform(const Scene& scene) {
   if (scene.positions.empty()) return scene.clip;

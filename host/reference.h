@@ -45,7 +45,7 @@ struct Counts {
 };
 
 struct Result {
-  Framebuffer image;  ///< depth and ids, in the contract's float32 order; and hits (all vectors are filled)
+  Framebuffer image;  ///< depth, ids and hits, and values where the scene has some; in the contract's float32 order
   Counts counts;
   double depthMaxAbs = 0;  ///< largest |float32 depth - exact depth of the snapped piece| over the visible pixels
   double depthMaxUlp = 0;  ///< the same in units of the last place of the exact value
@@ -57,5 +57,18 @@ std::vector<glm::vec4> transform(const Scene& scene);
 std::vector<Piece> pieces(const Scene& scene, const Image& image, Counts* counts = nullptr);
 /// `measureDepth` also fills depthMaxAbs and depthMaxUlp (slower).
 Result render(const Scene& scene, const Image& image = {}, bool measureDepth = false);
+
+/// Values of a frame whose ids are there: the scene's attribute by the contract, in its float32 order. Replaces
+/// frame.attribute.
+void interpolate(const Scene& scene, const Image& image, Framebuffer& frame);
+
+/// |A - exact value| over the pixels of a frame that show a triangle with finite values, in the attribute's units.
+/// Exact is the contract's section Attributes in real numbers: the linear interpolation over the snapped triangle, or
+/// the perspective-correct one over the triangle in clip space, right to about 2^-100 of its terms.
+struct AttributeError {
+  double max = 0, rms = 0;
+  std::uint64_t pixels = 0;  ///< that were measured
+};
+AttributeError attributeError(const Scene& scene, const Image& image, const Framebuffer& frame);
 
 }  // namespace tessera::reference

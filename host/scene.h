@@ -26,6 +26,8 @@ struct Scene {
   std::vector<glm::vec3> positions;  ///< object space
   std::vector<glm::vec4> clip;       ///< clip space, given as they are (replay files, tests): no transform runs
   std::vector<glm::vec3> normals;    ///< empty, or unit length, one a vertex, object space
+  std::vector<float> attribute;      ///< empty, or one a vertex: frames get a raster of these values, too
+  std::string attributeName;         ///< of it
   std::vector<Triangle> triangles;
   Matrix clipFromObject = kIdentity;
 

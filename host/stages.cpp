@@ -26,6 +26,7 @@ const std::vector<Stage>& stages() {
       {"raster-items", "rasterizer/raster-items.slang", "rasterItems"},
       {"resolve", "rasterizer/resolve.slang", "resolve"},
       {"shade", "rasterizer/shade.slang", "shade"},
+      {"attribute", "rasterizer/attribute.slang", "interpolateAttribute"},
   };
   return list;
 }
@@ -46,6 +47,7 @@ std::vector<std::string> stagesOf(const Plan& plan) {
     names.insert(names.end(), {"bin-insert", "raster-tiles"});
   if (commit == "depth32+id32") names.push_back("resolve");
   if (plan.shade) names.push_back("shade");
+  if (plan.attribute) names.push_back("attribute");
   return names;
 }
 

@@ -60,7 +60,8 @@ std::vector<KernelRequest> kernelsOf(const Stage& stage, Route route) {
   std::map<std::string, KernelRequest> found;
   std::vector<std::string> order;
   for (const bool objectSpace : {true, false}) {
-    const Scene scene = simpleScene(objectSpace);
+    Scene scene = simpleScene(objectSpace);
+    if (stage.name == "attribute") scene.attribute.assign(scene.vertexCount(), 1.0f);
     forEachVariant(names, 0, chosen, [&](const Variant& variant) {
       try {
         const Plan plan = makePlan(scene, variant, device);

@@ -18,6 +18,8 @@ std::string pixelText(const Framebuffer& frame, std::size_t k) {
   if (!frame.hits.empty()) text += fmt::format(" hits {}", frame.hits[k]);
   if (!frame.colour.empty())
     text += fmt::format(" colour {} {} {}", frame.colour[k].x, frame.colour[k].y, frame.colour[k].z);
+  if (!frame.attribute.empty())
+    text += fmt::format(" value {} ({:#010x})", frame.attribute[k], std::bit_cast<std::uint32_t>(frame.attribute[k]));
   return text;
 }
 
@@ -28,8 +30,10 @@ std::string difference(const Framebuffer& got, const Framebuffer& expected) {
   if (d.equal()) return "";
   const std::size_t k = static_cast<std::size_t>(d.firstY) * got.width + static_cast<std::size_t>(d.firstX);
   return fmt::format(
-      "of {} pixels {} differ in id, {} in depth, {} in hits, {} in colour; first ({}, {}):{}; expected{}", d.pixels,
-      d.id, d.depth, d.hits, d.colour, d.firstX, d.firstY, pixelText(got, k), pixelText(expected, k));
+      "of {} pixels {} differ in id, {} in depth, {} in hits, {} in colour, {} in values; first ({}, {}):{}; "
+      "expected{}",
+      d.pixels, d.id, d.depth, d.hits, d.colour, d.attribute, d.firstX, d.firstY, pixelText(got, k),
+      pixelText(expected, k));
 }
 
 std::string difference(const Counters& got, const reference::Counts& expected) {
