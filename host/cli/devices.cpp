@@ -29,7 +29,7 @@ std::string probeCell(Device& device, KernelCache* kernels, Route route, std::st
                              : result.required ? "FAILED: "
                                                : "differs: ",
                              result.detail);
-    return probe.passed() ? "passed" : "FAILED";
+    return verdictOf(probe);
   } catch (const Error& error) {
     notes += fmt::format("{} ({}): the probe could not run: {}\n", name, routeName(route), error.what());
     return "could not run";
@@ -93,7 +93,8 @@ Command addDevices(CLI::App& app) {
   command->footer(
       "buffer: largest storage buffer; loop: iterations that one invocation can run; groups: workgroups in a "
       "dimension.\n"
-      "Parity of images is claimed where the probe passes.");
+      "Parity of images is claimed where the probe passes, and where it finds denormals flushed to zero and nothing "
+      "else,\nfor scenes whose arithmetic meets none.");
   return {command, runDevices};
 }
 

@@ -28,7 +28,7 @@ std::string verdictTable(const std::vector<Outcome>& outcomes) {
     };
     const Variant& variant = outcome.run.variant;
     const bool counting = variant.get("commit") == "count", shaded = variant.get("shade") != "none";
-    const char* const probe = outcome.probe.results.empty() ? "not run" : outcome.probe.passed() ? "passed" : "FAILED";
+    const std::string probe = outcome.probe.results.empty() ? "not run" : verdictOf(outcome.probe);
     rows.push_back(
         {outcome.attempt.device, outcome.attempt.route, outcome.run.device.name, probe, count(true, outcome.covered),
          count(!counting, difference.coverage), count(!counting, difference.id), count(!counting, difference.depth),
@@ -63,7 +63,12 @@ std::string notes(const std::vector<Outcome>& outcomes) {
   std::string text, software;
   for (const auto& outcome : outcomes) {
     if (!outcome.note.empty()) text += fmt::format("{}: {}\n", outcome.attempt.name(), outcome.note);
-    if (!outcome.probe.passed())
+    if (outcome.probe.onlyFlushes())
+      text += fmt::format(
+          "{}: denormals (floats below 1.2e-38) are flushed to zero; parity is claimed for scenes whose arithmetic "
+          "meets none\n",
+          outcome.attempt.name());
+    else if (!outcome.probe.passed())
       text += fmt::format("{}: parity is not claimed, its arithmetic differs: {}\n", outcome.attempt.name(),
                           firstFailure(outcome.probe));
     if (outcome.run.device.correctnessOnly && outcome.attempt.device != software) {

@@ -22,8 +22,8 @@ struct Outcome {
   enum Verdict { kEqual, kNotClaimed, kDifferent, kRefused };
 
   Attempt attempt;
-  Run run;                    ///< its difference is from the oracle; none when the device could not run
-  Probe probe;                ///< of the device's arithmetic; parity is claimed only where it passed
+  Run run;      ///< its difference is from the oracle; none when the device could not run
+  Probe probe;  ///< of the device's arithmetic; parity is claimed only where it passed or flushes denormals
   std::uint64_t covered = 0;  ///< pixels
   ExitCode refusal{};         ///< why it could not run
   std::string note;           ///< one line on a difference or a refusal; "" when equal
@@ -31,7 +31,7 @@ struct Outcome {
   Verdict verdict() const {
     if (!run.difference) return kRefused;
     if (!run.difference->equal()) return kDifferent;
-    return probe.passed() ? kEqual : kNotClaimed;
+    return probe.passed() || probe.onlyFlushes() ? kEqual : kNotClaimed;
   }
 };
 

@@ -4,6 +4,10 @@ namespace tessera::cli {
 
 std::string routeName(Route route) { return route == Route::kCpp ? "cpp" : route == Route::kSpirv ? "spirv" : "glsl"; }
 
+std::string verdictOf(const Probe& probe) {
+  return probe.passed() ? "passed" : probe.onlyFlushes() ? "flushes denormals" : "FAILED";
+}
+
 std::string firstFailure(const Probe& probe) {
   for (const auto& result : probe.results)
     if (result.required && !result.passed) return result.name + ": " + result.detail;

@@ -9,6 +9,7 @@
 namespace tessera::cli {
 
 std::string routeName(Route route);            ///< "cpp", "spirv" or "glsl"
+std::string verdictOf(const Probe& probe);     ///< "passed", "flushes denormals" or "FAILED"
 std::string firstFailure(const Probe& probe);  ///< "divide: 1/3 gives ..."; "" when it passed
 
 }  // namespace tessera::cli

@@ -6,7 +6,9 @@
 #include <array>
 #include <cctype>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
+#include <filesystem>
 
 namespace tessera::vulkan {
 namespace {
@@ -25,7 +27,20 @@ vk::DebugUtilsMessengerCreateInfoEXT messengerInfo(void* user) {
   return {{}, Severity::eWarning | Severity::eError, Type::eValidation | Type::ePerformance, forwardMessage, user};
 }
 
-vk::raii::Context makeContext() try { return vk::raii::Context(); } catch (const std::runtime_error&) {
+/// Debian keeps SwiftShader, a software driver, where the loader does not look: in chromium-common. It is added where
+/// the user says nothing about drivers (loaders from 1.3.207 on read this; older ones leave it alone).
+void addSwiftShader() {
+  constexpr const char* kDriver = "/usr/lib/chromium/vk_swiftshader_icd.json";
+  for (const char* said : {"VK_ICD_FILENAMES", "VK_DRIVER_FILES", "VK_ADD_DRIVER_FILES"})
+    if (std::getenv(said) != nullptr) return;
+  std::error_code ignored;
+  if (std::filesystem::exists(kDriver, ignored)) setenv("VK_ADD_DRIVER_FILES", kDriver, 0);
+}
+
+vk::raii::Context makeContext() try {
+  addSwiftShader();
+  return vk::raii::Context();
+} catch (const std::runtime_error&) {
   failUsage("no Vulkan loader (libvulkan.so.1) on this machine; Debian: libvulkan1 mesa-vulkan-drivers");
 }
 
@@ -120,6 +135,9 @@ Instance::Instance(bool validation, std::function<void(const std::string&)> onMe
 std::vector<Adapter> Instance::adapters(vk::QueueFlags queueFlags) const try {
   std::vector<Adapter> found;
   for (const auto& physical : instance_.enumeratePhysicalDevices()) found.push_back(describe(physical, queueFlags));
+  // The loader puts it first; no one who did not ask for it should get it.
+  std::ranges::stable_partition(found,
+                                [](const Adapter& a) { return a.driver.driverID != vk::DriverId::eGoogleSwiftshader; });
   return found;
 } catch (const vk::SystemError&) {
   return {};  // what the loader says when no driver loads

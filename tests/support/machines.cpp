@@ -57,6 +57,7 @@ Machine* machineAt(const std::string& place, const std::string& route) {
       return nullptr;
     }
     VulkanOptions options;
+    if (place == SwiftShader::kName) options.select = place;
 #ifdef TESSERA_VALIDATION
     options.validation = true;
     options.onMessage = [](const std::string& message) { FAIL_CHECK(message); };

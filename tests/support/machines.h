@@ -23,6 +23,11 @@ struct VulkanGlsl {
   static constexpr const char* kName = "vulkan by glsl";
   static constexpr const char* kRoute = "glsl";
 };
+/// A second software driver, independent of the first: no 64-bit integers or floats, subgroups of 4, denormals flushed.
+struct SwiftShader {
+  static constexpr const char* kName = "SwiftShader";
+  static constexpr const char* kRoute = "spirv";
+};
 /// The CPU with Slang's bounds checks compiled into the kernels: an access out of bounds throws.
 struct CheckedCpu {
   static constexpr const char* kName = "cpu with bounds checks";
@@ -34,8 +39,10 @@ class Machine {
   Machine(std::string name, std::string route, std::unique_ptr<Device> device, KernelCache::Options options = {});
 
   const std::string& name() const { return name_; }
+  Device& device() { return *device_; }
   const DeviceInfo& info() const { return device_->info(); }
   KernelCache& kernels() { return kernels_; }
+  Route route() const { return route_ == "cpp" ? Route::kCpp : route_ == "glsl" ? Route::kGlsl : Route::kSpirv; }
   /// Renders with this machine's route, unless the variant says another.
   Frame render(const Scene& scene, Variant variant = {}, const FrameOptions& options = {});
   Plan plan(const Scene& scene, Variant variant = {}) const;
@@ -50,7 +57,7 @@ class Machine {
 };
 
 /// One machine of each place for the whole program, so that kernels are loaded once. A test fails where there is no
-/// Vulkan device. With TESSERA_NO_VULKAN=1 in the environment it warns instead, and null comes back.
+/// Vulkan device, or no SwiftShader. With TESSERA_NO_VULKAN=1 in the environment it warns instead, and null comes back.
 Machine* machineAt(const std::string& place, const std::string& route);
 template <typename Place>
 Machine* machineAt() {
@@ -76,3 +83,7 @@ Machine* machineAt() {
 #define CHECKED_PLACE_TEST_CASE(title, tags)                                                            \
   PLACE_TEST_CASE_AT(INTERNAL_CATCH_UNIQUE_NAME(runAt), title, tags, tessera::Cpu, tessera::CheckedCpu, \
                      tessera::VulkanSpirv, tessera::VulkanGlsl)
+/// The same as PLACE_TEST_CASE, and on SwiftShader: tens of times slower than the CPU device, so for what is small.
+#define PLACE_AND_SWIFTSHADER_TEST_CASE(title, tags)                                                     \
+  PLACE_TEST_CASE_AT(INTERNAL_CATCH_UNIQUE_NAME(runAt), title, tags, tessera::Cpu, tessera::VulkanSpirv, \
+                     tessera::VulkanGlsl, tessera::SwiftShader)

@@ -12,6 +12,7 @@
 #include "host/cpu/cpu-device.h"
 #include "host/kernel-cache.h"
 #include "host/vulkan/vulkan-device.h"
+#include "tests/support/machines.h"
 
 using namespace tessera;
 namespace fs = std::filesystem;
@@ -48,11 +49,15 @@ class Altered {
   ~Altered() { fs::remove_all(folder_); }
   Altered(const Altered&) = delete;
 
-  Probe probe(Device& device, Route route) const {
+  template <class Run>
+  Probe probeWith(Device& device, Run run) const {
     KernelCache::Options options;
     options.slangSources = folder_;
     KernelCache kernels(options);
-    return probeDevice(device, kernels, route);
+    return run(device, kernels);
+  }
+  Probe probe(Device& device, Route route) const {
+    return probeWith(device, [&](Device& d, KernelCache& kernels) { return probeDevice(d, kernels, route); });
   }
 
  private:
@@ -67,7 +72,7 @@ TEST_CASE("the probe passes on the CPU device") {
   const Probe probe = probeDevice(*device, kernels, Route::kCpp);
   CHECK(failing(probe) == std::vector<std::string>{});
   CHECK(probe.passed());
-  CHECK(probe.results.size() == 18);
+  CHECK(probe.results.size() == 29);
 }
 
 TEST_CASE("the probe passes on lavapipe by both routes") {
@@ -85,6 +90,36 @@ TEST_CASE("the probe passes on lavapipe by both routes") {
     CHECK(row(probe, "loop-limit").detail != "");
   }
   CHECK(messages == std::vector<std::string>{});
+}
+
+TEST_CASE("the probe finds that SwiftShader flushes denormals and nothing else") {
+  if (Machine* swiftShader = machineAt<SwiftShader>())
+    for (Route route : {Route::kSpirv, Route::kGlsl}) {
+      const Probe probe = probeDevice(swiftShader->device(), swiftShader->kernels(), route);
+      CHECK(failing(probe).size() == 2);
+      CHECK(!probe.passed());
+      CHECK(probe.onlyFlushes());
+      CHECK_THAT(row(probe, "denormals").detail, Catch::Contains("should be 0x00000001"));
+      CHECK(!row(probe, "int64").required);
+      CHECK(row(probe, "two-word-to-float").passed);
+    }
+}
+
+TEST_CASE("a probe that fails in more than denormals does not only flush") {
+  Probe probe;
+  probe.results = {{"denormals", true, false, ""}, {"loop-limit", false, false, ""}};
+  CHECK(probe.onlyFlushes());
+  probe.results.push_back({"divide", true, false, ""});
+  CHECK(!probe.onlyFlushes());
+  CHECK(!Probe{}.onlyFlushes());
+}
+
+PLACE_AND_SWIFTSHADER_TEST_CASE("64-bit integers have the bits of the host's as two words and native", "[wide]") {
+  const Probe probe = probeWide(machine.device(), machine.kernels(), machine.route(), 1u << 20);
+  CHECK(probe.passed());
+  for (const auto& result : probe.results)
+    if (result.required) CHECK(result.detail == "");
+  CHECK(probe.results.size() == (machine.info().int64 ? 14 : 8));
 }
 
 TEST_CASE("the probe sees a division by way of the reciprocal") {
@@ -116,10 +151,30 @@ TEST_CASE("the probe sees denormals flushed to zero and does not blame the opera
 }
 
 TEST_CASE("the probe sees a wide integer rounded twice") {
-  const Altered sources("fixed-point.slang", "return float(a);",
+  const Altered sources("wide-native.slang", "return float(a);",
                         "return float(int(a >> 32)) * 4294967296.0f + float(uint(a));");
   const auto device = makeCpuDevice();
   const Probe probe = sources.probe(*device, Route::kCpp);
   CHECK(!row(probe, "int64-to-float").passed);
   CHECK(row(probe, "int64-product").passed);
+  CHECK(row(probe, "two-word-to-float").passed);
+}
+
+TEST_CASE("the probe sees two words that lose a carry or a tie") {
+  struct Fault {
+    const char *from, *to, *row;
+  };
+  for (const auto& [from, to, name] :
+       {Fault{"+ (low < a.low ? 1u : 0u)", "", "two-word-add"},
+        Fault{"((a0 * b1 + (t & 0xffff)) >> 16)", "((a0 * b1) >> 16)", "two-word-product"},
+        Fault{"below + (mantissa & 1) > 0x100u", "below >= 0x100u", "two-word-to-float"},
+        Fault{"a.high == b.high && a.low < b.low", "a.low < b.low", "two-word-compare"}}) {
+    INFO(from);
+    const Altered sources("wide-two-word.slang", from, to);
+    const auto device = makeCpuDevice();
+    const Probe probe = sources.probeWith(
+        *device, [](Device& d, KernelCache& kernels) { return probeWide(d, kernels, Route::kCpp, 10000); });
+    CHECK(!row(probe, name).passed);
+    CHECK(row(probe, "int64-to-float").passed);
+  }
 }
