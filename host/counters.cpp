@@ -24,6 +24,7 @@ const std::vector<CounterDoc>& counterDocs() {
       {"tests", "samples tested against a triangle's edges (counters=work)", true},
       {"covered", "samples covered, each hit counted (counters=work)", true},
       {"atomics", "atomic operations on the frame (counters=work)", true},
+      {"visited", "entries that tiles looked at: pieces in their bins, or all of them (counters=work)", true},
       {"submitted", "triangles of the scene", false},
       {"binned", "pairs of a piece and a tile", false},
       {"retries", "times a stage ran again with more room", false},

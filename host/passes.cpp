@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstring>
 
 #include "host/error.h"
@@ -27,6 +28,13 @@ Buffer& Passes::buffer(std::string_view name, std::size_t bytes) {
     buffer = device_.createBuffer(bytes, name);
   }
   return *buffer;
+}
+
+bool Passes::uses(std::string_view name) const {
+  return std::ranges::any_of(kernels_, [&](const auto& kernel) {
+    const auto& resources = kernel.second->compiled().interface.resources;
+    return std::ranges::any_of(resources, [&](const auto& resource) { return resource.first == name; });
+  });
 }
 
 void Passes::overElements(std::string_view stage, std::uint64_t elements) {

@@ -32,6 +32,8 @@ class Passes {
   /// The buffer that kernels know by this name, at least so large; what it held is lost when it grows. Reused between
   /// frames.
   Buffer& buffer(std::string_view name, std::size_t bytes);
+  /// Whether a kernel of the plan in force names it.
+  bool uses(std::string_view name) const;
   /// As it is. It has to be there.
   Buffer& buffer(std::string_view name) { return *buffers_.find(name)->second; }
   /// What kernels know by `name` is the buffer `as`, until said otherwise.

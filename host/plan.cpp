@@ -1,144 +1,43 @@
 #include "host/plan.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
-#include <limits>
 
+#include "host/choice.h"
 #include "host/error.h"
+#include "host/plan-scene.h"
 
 namespace tessera {
 namespace {
 
-struct Bounds {
-  std::array<double, 3> low, high;
-  bool empty = true;
-};
-
-/// Of the finite positions: the others are dropped in setup.
-Bounds boundsOf(const std::vector<glm::vec3>& positions) {
-  Bounds b;
-  b.low.fill(std::numeric_limits<double>::infinity());
-  b.high.fill(-std::numeric_limits<double>::infinity());
-  for (const glm::vec3& p : positions) {
-    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) continue;
-    b.empty = false;
-    for (int i = 0; i < 3; ++i) {
-      b.low[i] = std::min(b.low[i], double{p[i]});
-      b.high[i] = std::max(b.high[i], double{p[i]});
-    }
-  }
-  return b;
-}
-
-/// One of the contract's six distances, and how large its terms were: the measure of its rounding error.
-struct Distance {
-  double value, size;
-};
-std::array<Distance, 6> distances(const std::array<double, 4>& p, const std::array<double, 4>& size, double guardX,
-                                  double guardY) {
-  const auto [x, y, z, w] = p;
-  const auto [sx, sy, sz, sw] = size;
-  return {{{z, sz},
-           {w - z, sw + sz},
-           {guardX * w + x, guardX * sw + sx},
-           {guardX * w - x, guardX * sw + sx},
-           {guardY * w + y, guardY * sw + sy},
-           {guardY * w - y, guardY * sw + sy}}};
-}
-
-/// Whether the contract's float32 arithmetic may find this point of object space outside a clip plane. Transform and
-/// distance round a handful of times, each by 2^-24 of the terms: 1e-5 of their sum is ample.
-bool mayBeOutside(const Matrix& m, const std::array<double, 3>& point, double guardX, double guardY) {
-  std::array<double, 4> p{}, size{};
-  for (int row = 0; row < 4; ++row) {
-    for (int i = 0; i < 3; ++i) {
-      const double term = m[4 * row + i] * point[i];
-      p[row] += term;
-      size[row] += std::abs(term);
-    }
-    p[row] += m[4 * row + 3];
-    size[row] += std::abs(m[4 * row + 3]);
-  }
-  return std::ranges::any_of(distances(p, size, guardX, guardY),
-                             [](const Distance& d) { return !(d.value > 1e-5 * d.size); });
-}
-
-/// Whether a vertex of the scene may lie outside a clip plane.
-bool mayCross(const Scene& scene) {
-  const double guardX = 32767.0 / (scene.width * 0.5), guardY = 32767.0 / (scene.height * 0.5);
-  if (scene.positions.empty())
-    return std::ranges::any_of(scene.clip, [&](const glm::vec4& c) {
-      // Given, not computed: only the distance itself rounds, and 0 is inside.
-      const std::array<double, 4> p{c.x, c.y, c.z, c.w};
-      const bool finite = std::ranges::all_of(p, [](double v) { return std::isfinite(v); });
-      return finite && std::ranges::any_of(distances(p, {}, guardX * (1 - 1e-6), guardY * (1 - 1e-6)),
-                                           [](const Distance& d) { return d.value < 0; });
-    });
-  const Bounds bounds = boundsOf(scene.positions);
-  if (bounds.empty) return false;
-  // The planes bound a convex part of object space: if it holds the corners of the box, it holds the scene. Else each
-  // vertex is looked at.
-  const auto corner = [&](int c) {
-    std::array<double, 3> p{};
-    for (int i = 0; i < 3; ++i) p[i] = (c >> i) & 1 ? bounds.high[i] : bounds.low[i];
-    return p;
-  };
-  bool boxInside = true;
-  for (int c = 0; c < 8; ++c) boxInside = boxInside && !mayBeOutside(scene.clipFromObject, corner(c), guardX, guardY);
-  return !boxInside && std::ranges::any_of(scene.positions, [&](const glm::vec3& p) {
-    const bool finite = std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-    return finite && mayBeOutside(scene.clipFromObject, {p.x, p.y, p.z}, guardX, guardY);
-  });
-}
-
-/// Whether every vertex that setup keeps has w = 1 exactly: 0 x is 0 for a finite x, and where x is not finite w is
-/// NaN.
-bool isOrthographic(const Scene& scene) {
-  if (scene.positions.empty()) return std::ranges::all_of(scene.clip, [](const glm::vec4& c) { return c.w == 1.0f; });
-  const Matrix& m = scene.clipFromObject;
-  return m[12] == 0 && m[13] == 0 && m[14] == 0 && m[15] == 1;
-}
+constexpr double kMostBoxes = 4294967296.0;     // that aabb-scan tests in a frame: some seconds on two cores
+constexpr double kMostMaskBytes = 4294967296.0;  // that bitmask takes
 
 class Planner {
  public:
   Planner(const Scene& scene, const Variant& asked, const DeviceInfo& device)
-      : scene_(scene), asked_(asked), device_(device), full_(asked.get("plan", "planned") == "full") {}
+      : scene_(scene), asked_(asked), device_(device), choice_(asked, device),
+        full_(asked.get("plan", "planned") == "full") {}
 
   Plan run() {
-    choose("plan", "planned");
-    route();
+    choice_.take("plan", {"planned"});
+    choice_.take("route", {"cpp", "spirv"});
     geometry();
     bins();
-    commit();
-    choose("traversal", "cell-reject");
-    choose("edge", "int32");
-    wide();
-    choose("counters", "basic");
+    raster();
     shading();
     attribute();
+    plan_.resolved = choice_.resolved();
     return std::move(plan_);
   }
 
  private:
-  std::string choose(std::string_view axis, const std::string& otherwise) {
-    const std::string value = asked_.get(axis, otherwise);
-    plan_.resolved.set(axis, value);
-    return value;
-  }
   void note(std::string pass, bool kept, std::string why) {
     plan_.entries.push_back({std::move(pass), kept, std::move(why)});
-  }
-
-  void route() {
-    const bool cpu = device_.api == "cpu";
-    const std::string value = choose("route", cpu ? "cpp" : "spirv");
-    if (cpu != (value == "cpp"))
-      failUnsupported(fmt::format("route={}: the {} device takes {}", value, device_.api,
-                                  cpu ? "route=cpp" : "route=spirv or route=glsl"));
   }
 
   void geometry() {
@@ -149,89 +48,126 @@ class Planner {
     note("setup", true, "triangles become snapped, oriented pieces");
 
     const bool crosses = mayCross(scene_);
-    plan_.clip = choose("clip", full_ || crosses ? "on" : "off") == "on";
+    plan_.clip = choice_.take("clip", {full_ || crosses ? "on" : "off"}) == "on";
     if (!plan_.clip && crosses)
       failUsage("clip=off: triangles of this scene may cross a clip plane; leave clip unset, or set clip=on");
     note("setup: clip", plan_.clip,
          crosses ? "a triangle may cross a clip plane" : "no triangle can cross a clip plane");
 
     const bool orthographic = isOrthographic(scene_);
-    plan_.perspective = choose("projection", full_ || !orthographic ? "perspective" : "orthographic") == "perspective";
+    plan_.perspective =
+        choice_.take("projection", {full_ || !orthographic ? "perspective" : "orthographic"}) == "perspective";
     if (!plan_.perspective && !orthographic)
       failUsage("projection=orthographic: w is not 1 at every vertex of this scene; leave projection unset");
     note("project: perspective division", plan_.perspective, orthographic ? "w is 1 at every vertex" : "w varies");
 
-    const std::string cull = choose("cull", "none");
+    choice_.take("sub-pixel", {"8"});
+    const std::string cull = choice_.take("cull", {"none"});
     note("setup: cull by facing", cull != "none", cull == "none" ? "not asked for (cull)" : "cull=" + cull);
-    const bool between = choose("between-samples", full_ ? "off" : "on") == "on";
+    choice_.take("fill", {"top-left"});
+    const bool between = choice_.take("between-samples", {full_ ? "off" : "on"}) == "on";
     note("setup: drop between samples", between,
          between ? "a piece without a sample in its box need not be binned"
                  : "asked to go without (between-samples, plan)");
+    choice_.take("wide", {"native", "two-word"});
   }
 
   void bins() {
     const std::string commit = asked_.get("commit");
-    const bool atomic = commit == "depth32+id32" || commit == "two-pass";
-    const std::string binning = choose("binning", atomic ? "none" : "exact");
-    binned_ = binning != "none";
+    const bool loose = !commit.empty() && commit != "count" && !axisValue("commit", commit).has(kWritesTiles);
+    const std::string binning = loose ? choice_.take("binning", {"none", "exact", "queue"})
+                                      : choice_.take("binning", {"exact", "queue", "none"});
+    const bool binned = binning != "none", listed = binning == "exact" || binning == "queue";
     int largest = 64;
     while (largest > 8 && tileOwnedBytes(largest) > device_.maxGroupBytes) largest /= 2;
-    const int tile = std::stoi(choose("tile", std::to_string(largest)));
+    const int tile = std::stoi(choice_.take("tile", {std::to_string(largest)}));
     const double tiles = std::ceil(double(scene_.width) / tile) * std::ceil(double(scene_.height) / tile);
-    const double mean = 4.0 * double(scene_.triangles.size()) / tiles;
-    choose("capacity", std::to_string(std::bit_ceil(static_cast<unsigned>(std::clamp(mean, 16.0, 32768.0)))));
-    choose("overflow", "retry");
+    const double triangles = double(scene_.triangles.size());
+    if (binning == "aabb-scan") checkScan(tiles, triangles);
+    if (binning == "bitmask") checkMask(tiles, triangles);
+    choice_.take("tile-test", {"edges", "box"});
+    choice_.take("capacity",
+                 {std::to_string(std::bit_ceil(static_cast<unsigned>(std::clamp(4 * triangles / tiles, 16.0, 32768.0))))});
+    choice_.take("overflow", {"retry"});
+    const std::string none = "no lists of pieces (binning=" + binning + ")";
     note("bin-count, scan", binning == "exact",
          binning == "exact" ? "bins are sized by counting first"
-         : binned_          ? "queues have a fixed capacity; only a retry counts and scans"
-                            : "no bins (binning=none)");
-    note("bin-insert", binned_, binned_ ? "pieces go to the tiles that they touch" : "no bins (binning=none)");
+         : listed           ? "queues have a fixed capacity; only a retry counts and scans"
+                            : none);
+    note("bin-insert", listed || binning == "bitmask",
+         listed || binning == "bitmask" ? "pieces go to the tiles that they touch" : none);
+    plan_.binned = binned;
   }
 
-  void commit() {
-    const bool atomics64 = device_.int64 && device_.atomicMin64;
-    const std::string value = choose("commit", binned_ ? "tile-owned" : atomics64 ? "depth32+id32" : "two-pass");
-    if (value == "tile-owned" && !binned_)
-      failUsage(
-          "commit=tile-owned: needs bins, and binning=none has none; set binning=exact or queue, or "
-          "commit=depth32+id32 or two-pass");
-    if (value == "depth32+id32" && !atomics64)
-      failUnsupported(fmt::format(
-          "commit=depth32+id32: {} has no 64-bit atomic min on buffers (shaderBufferInt64Atomics); set commit=two-pass",
-          device_.name));
-    const std::uint64_t groupMemory = tileOwnedBytes(std::stoul(plan_.resolved.get("tile")));
-    if (value == "tile-owned" && groupMemory > device_.maxGroupBytes)
-      failUnsupported(fmt::format("tile={}: tile-owned takes {} bytes of group memory, {} has {}; set a smaller tile",
-                                  plan_.resolved.get("tile"), groupMemory, device_.name, device_.maxGroupBytes));
-    plan_.clear = full_ || value != "tile-owned";
+  void checkScan(double tiles, double triangles) const {
+    if (tiles * triangles > kMostBoxes)
+      failUsage(fmt::format("binning=aabb-scan: {} tiles would go through {} boxes each, {:.1e} a frame; up to {:.1e} "
+                            "would be taken: set a larger tile, or binning=exact",
+                            tiles, triangles, tiles * triangles, kMostBoxes));
+  }
+  void checkMask(double tiles, double triangles) const {
+    const double bytes = tiles * std::ceil(triangles / 32) * 4;
+    if (bytes > kMostMaskBytes)
+      failUsage(fmt::format("binning=bitmask: a bit for each of {} tiles and {} triangles takes {:.1f} GiB; up to "
+                            "{:.0f} would be taken: set a larger tile, or binning=exact",
+                            tiles, triangles, bytes / 0x1p30, kMostMaskBytes / 0x1p30));
+    if (bytes > double(device_.maxBufferBytes))
+      failUnsupported(fmt::format("binning=bitmask: a bit for each of {} tiles and {} triangles takes {:.0f} MiB, the "
+                                  "largest buffer of {} holds {:.0f}; set a larger tile, or binning=exact",
+                                  tiles, triangles, bytes / 0x1p20, device_.name, double(device_.maxBufferBytes) / 0x1p20));
+  }
+
+  void raster() {
+    const bool binned = plan_.binned;
+    const AxisValue& commit =
+        axisValue("commit", binned ? choice_.take("commit", {"tile-owned", "depth32+id32", "two-pass"})
+                                   : choice_.take("commit", {"depth32+id32", "two-pass"}));
+    const std::uint64_t groupMemory = tileOwnedBytes(std::stoul(choice_.resolved().get("tile")));
+    if (commit.has(kWritesTiles) && groupMemory > device_.maxGroupBytes)
+      failUnsupported(fmt::format("tile={}: {} takes {} bytes of group memory, {} has {}; set a smaller tile",
+                                  choice_.resolved().get("tile"), commit.name, groupMemory, device_.name,
+                                  device_.maxGroupBytes));
+    if (commit.name == "depth16+id16" && scene_.triangles.size() > 65535)
+      failUsage(fmt::format("commit=depth16+id16: 16 bits tell 65,535 triangles apart, the scene has {}; set "
+                            "commit=depth24+lum8 or two-pass",
+                            scene_.triangles.size()));
+    plan_.clear = full_ || !commit.has(kWritesTiles);
+    plan_.resolve = commit.has(kResolves);
     note("clear", plan_.clear,
-         value != "tile-owned" ? "atomics compare with what the frame holds"
-         : full_               ? "plan=full"
-                               : "each tile writes all of its own pixels");
-    note(binned_ ? "raster-tiles" : "raster-items", true, binned_ ? "a group a tile" : "a lane a work item");
-    note("resolve", value == "depth32+id32",
-         value == "depth32+id32" ? "packed words become depth and ids" : "depth and ids are written as they are");
-  }
-
-  void wide() {
-    if (choose("wide", device_.int64 ? "native" : "two-word") == "native" && !device_.int64)
-      failUnsupported(fmt::format("wide=native: {} has no 64-bit integers (shaderInt64); set wide=two-word", device_.name));
+         !commit.has(kWritesTiles) ? "atomics compare with what the frame holds"
+         : full_                   ? "plan=full"
+                                   : "each tile writes all of its own pixels");
+    choice_.take("edge", {"int32"});
+    choice_.take("size-class", {"off"});
+    choice_.take("traversal", {"cell-reject"});
+    choice_.take("step", {"direct"});
+    choice_.take("interpolate", {"cell-plane"});
+    choice_.take("counters", {"basic"});
+    note(binned ? "raster-tiles" : "raster-items", true, binned ? "a group a tile" : "a lane a work item");
+    note("resolve", plan_.resolve,
+         plan_.resolve ? "packed words become depth and ids" : "depth and ids are written as they are");
   }
 
   /// Depth and id of each pixel.
   static std::uint64_t tileOwnedBytes(std::uint64_t tile) { return tile * tile * 8; }
 
   void shading() {
-    const std::string shade = choose("shade", "none");
-    plan_.shade = shade != "none";
-    if (plan_.shade && plan_.resolved.get("commit") == "count")
-      failUsage("shade=" + shade + ": commit=count keeps no ids to shade; set shade=none");
-    if ((shade == "flat" || shade == "smooth") && scene_.positions.empty() && !scene_.triangles.empty())
+    const AxisValue& commit = axisValue("commit", choice_.resolved().get("commit"));
+    const bool flatIsFit = !scene_.positions.empty() || scene_.triangles.empty();
+    const std::string shade = choice_.take("shade", {"none", flatIsFit ? "flat" : "id"});
+    plan_.payload = commit.has(kKeepsColours);
+    plan_.shade = shade != "none" && !plan_.payload;
+    if ((shade == "flat" || shade == "smooth") && !flatIsFit)
       failUsage("shade=" + shade + ": the scene has clip-space positions only; set shade=id");
     if (shade == "smooth" && scene_.normals.size() != scene_.positions.size())
       failUsage("shade=smooth: the scene has no vertex normals; set shade=flat");
-    note("shade", plan_.shade, plan_.shade ? "shade=" + shade : "no colours asked for (shade)");
-    note("shade: normals", shade == "smooth", shade == "smooth" ? "they are interpolated" : "nothing interpolates them");
+    note("payload", plan_.payload,
+         plan_.payload ? "the commit keeps a colour of each triangle" : "the commit keeps ids");
+    note("shade", plan_.shade,
+         plan_.shade     ? "shade=" + shade
+         : plan_.payload ? "the commit keeps colours"
+                         : "no colours asked for (shade)");
+    note("normals", shade == "smooth", shade == "smooth" ? "they are interpolated" : "nothing interpolates them");
   }
 
   void attribute() {
@@ -242,16 +178,17 @@ class Planner {
     if (scene_.attribute.size() != scene_.vertexCount())
       failUsage(fmt::format("attribute {}: {} values for {} vertices; one a vertex would be right", scene_.attributeName,
                             scene_.attribute.size(), scene_.vertexCount()));
-    if (plan_.resolved.get("commit") == "count")
-      failUsage(fmt::format("attribute {}: commit=count keeps no ids to interpolate by; leave commit unset",
-                            scene_.attributeName));
+    const std::string commit = choice_.resolved().get("commit");
+    if (plan_.payload || commit == "count")
+      failUsage(fmt::format("attribute {}: commit={} keeps no ids to interpolate by; leave commit unset",
+                            scene_.attributeName, commit));
   }
 
   const Scene& scene_;
   const Variant& asked_;
   const DeviceInfo& device_;
+  Choice choice_;
   bool full_;
-  bool binned_ = true;
   Plan plan_;
 };
 

@@ -19,8 +19,8 @@ struct PlanEntry {
 struct Plan {
   std::vector<PlanEntry> entries;  ///< in pipeline order
   Variant resolved;                ///< a value for every axis
-  bool transform = true, clip = true, perspective = true, clear = true, shade = false,
-       attribute = false;
+  bool transform = true, clip = true, perspective = true, binned = true, clear = true, payload = false, resolve = false,
+       shade = false, attribute = false;
 };
 
 /// Throws kUnsupported (device) or kUsage (axes that do not go together), with the reason and what would work.

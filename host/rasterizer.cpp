@@ -38,7 +38,7 @@ class FrameRun {
   FrameRun(Passes& passes, const Scene& scene, Plan plan, const FrameOptions& options)
       : passes_(passes), device_(passes.device()), info_(device_.info()), scene_(scene), options_(options) {
     frame_.plan = std::move(plan);
-    commit_ = value("commit");
+    commit_ = &axisValue("commit", value("commit"));
     binning_ = value("binning");
     tile_ = binning_ == "none" ? kBlock : static_cast<std::uint32_t>(std::stoul(value("tile")));
   }
@@ -71,6 +71,8 @@ class FrameRun {
     return info_.maxLoopIterations > fixed ? info_.maxLoopIterations - fixed : 0;
   }
   bool fits(std::uint64_t bytes) const { return bytes <= info_.maxBufferBytes; }
+  /// Whether tiles have lists of pieces, which can be counted.
+  bool listed() const { return binning_ == "queue" || binning_ == "exact"; }
 
   // ---- what does not depend on the band
 
@@ -111,14 +113,16 @@ class FrameRun {
     passes_.buffer("counters", 8 * kernelCounterCount());
     for (const char* field :
          {"triangleCount", "triangleBase", "extraCapacity", "itemCapacity", "extraCount", "itemCount", "entryCapacity",
-          "queueCapacity", "entryBegin", "entryRange", "loadFrame", "commitPass", "scanCount", "scanTop"})
+          "queueCapacity", "maskWords", "entryBegin", "entryRange", "loadFrame", "commitPass", "scanCount", "scanTop"})
       passes_.set(field, 0u);
   }
 
   /// Bands of rows whose frame buffers fit the device, and whose blocks a lane of setup can walk within the device's
   /// loop limit: twice the blocks for each piece of a triangle.
   std::vector<Band> cutBands() {
-    const std::uint64_t pixelBytes = value("shade") != "none" ? 12 : commit_ == "depth32+id32" ? 8 : 4;
+    std::uint64_t pixelBytes = 4;
+    for (const auto& [name, bytes] : pixelBuffers())
+      if (passes_.uses(name)) pixelBytes = std::max(pixelBytes, bytes);
     const std::uint64_t blocksAcross = ceilDivide(scene_.width, kBlock);
     const std::uint64_t byBytes = info_.maxBufferBytes / (pixelBytes * scene_.width * kBlock);
     // Each loop's last test counts as an iteration; what is clipped and what is not follow one another in one subgroup.
@@ -156,7 +160,7 @@ class FrameRun {
     clear();
     passes_.overElements(frame_.plan.transform ? "transform" : "project", scene_.vertexCount());
     // Ids of the second pass are those of the final depths, so the first pass sees all batches before.
-    const std::uint32_t commitPasses = commit_ == "two-pass" ? 2 : 1;
+    const std::uint32_t commitPasses = commit_->has(kTwoPasses) ? 2 : 1;
     for (std::uint32_t pass = 0; pass < commitPasses; ++pass)
       for (std::size_t b = 0; b < batches_.size(); ++b) {
         passes_.set("commitPass", pass);
@@ -167,25 +171,23 @@ class FrameRun {
         const bool last = pass + 1 == commitPasses;
         if (last || batches_.size() > 1) countBatch(last);  // else the counters go on over the passes
       }
-    if (commit_ == "depth32+id32") passes_.overElements("resolve", pixels());
+    if (frame_.plan.resolve) passes_.overElements("resolve", pixels());
     device_.finish();
     times_ = device_.takeTimes();
     if (frame_.plan.shade) {
-      passes_.buffer("colour", pixels() * 12);
       for (std::size_t b = 0; b < batches_.size(); ++b) {
         useBatch(b);
         passes_.overElements("shade", pixels());
       }
     }
     if (frame_.plan.attribute) {
-      passes_.buffer("values", pixels() * 4);
       for (std::size_t b = 0; b < batches_.size(); ++b) {
         useBatch(b);
         passes_.overElements("attribute", pixels());
       }
     }
     addCounts();
-    if (only && options_.keepStages && batches_.size() == 1 && commit_ != "count") keepFrame();
+    if (only && options_.keepStages && batches_.size() == 1) keepFrame();
     return true;
   }
 
@@ -209,16 +211,17 @@ class FrameRun {
     batches_ = std::move(halves);
   }
 
+  /// Buffers with an element a pixel, by the names that commits and later stages give them, and its bytes.
+  static const std::map<std::string, std::uint64_t>& pixelBuffers() {
+    static const std::map<std::string, std::uint64_t> bytes{{"depth", 4},    {"ids", 4},   {"hits", 4},   {"packed", 8},
+                                                            {"packed32", 4}, {"locks", 4}, {"colour", 12}, {"values", 4}};
+    return bytes;
+  }
+
   void clear() {
-    if (commit_ == "count") {
-      passes_.buffer("hits", pixels() * 4);
-      passes_.zero("hits", pixels());
-      return;
-    }
-    passes_.buffer("depth", pixels() * 4);
-    passes_.buffer("ids", pixels() * 4);
-    if (commit_ == "depth32+id32") passes_.buffer("packed", pixels() * 8);
-    if (frame_.plan.clear) passes_.overElements(commit_ == "depth32+id32" ? "clear-packed" : "clear", pixels());
+    for (const auto& [name, bytes] : pixelBuffers())
+      if (passes_.uses(name)) passes_.buffer(name, pixels() * bytes);
+    if (frame_.plan.clear) passes_.overElements("clear", pixels());
   }
 
   // ---- a batch: setup and bins
@@ -226,8 +229,16 @@ class FrameRun {
   bool prepareBatch(bool keep) {
     if (!setup()) return false;
     if (keep && options_.keepStages) keepSetup();
-    return binning_ == "none" || (binning_ == "exact" ? binExact() : binQueue());
+    if (frame_.plan.payload) {
+      passes_.buffer("payloads", 4 * std::uint64_t{passes_.get("triangleCount")});
+      passes_.overElements("payload", passes_.get("triangleCount"));
+    }
+    if (binning_ == "exact") return binExact();
+    if (binning_ == "queue") return binQueue();
+    largestBin_ = slots();  // aabb-scan, bitmask: a tile goes through them all
+    return binning_ != "bitmask" || binMask();
   }
+  std::uint64_t slots() const { return std::uint64_t{passes_.get("triangleCount")} + passes_.get("extraCount"); }
 
   std::vector<std::uint32_t> readCounters() {
     return passes_.read<std::uint32_t>("counters", 2 * kernelCounterCount());
@@ -333,6 +344,16 @@ class FrameRun {
     return insertCounted();
   }
 
+  bool binMask() {
+    const std::uint64_t words = ceilDivide(slots(), 32);
+    if (tiles() * words > kMaxWord || !fits(tiles() * words * 4)) return false;
+    passes_.buffer("masks", tiles() * words * 4);
+    passes_.set("maskWords", static_cast<std::uint32_t>(words));
+    passes_.zero("masks", tiles() * words);
+    passes_.overElements("bin-insert", work_);
+    return true;
+  }
+
   bool binQueue() {
     const std::uint64_t capacity = std::stoul(value("capacity"));
     if (!fits(tiles() * capacity * 4) ||
@@ -370,10 +391,13 @@ class FrameRun {
     // store; and for each entry its rows, their cells, and the lanes of each. A loop of n takes n + 1: lavapipe counts
     // its last test, too.
     const std::uint64_t across = tile_ / 8, cells = across * across;
-    const std::uint64_t each = 3 * cells + 2 * across + 2, fixed = 9 * cells + 16;
-    const std::uint64_t range = std::max<std::uint64_t>(loopsBeyond(fixed) / each, 1);
+    const bool once = value("traversal") == "pixel" || value("traversal") == "cell-reject";
+    const std::uint64_t each = once ? 3 * cells + 2 * across + 3 : 7 * cells + 10 * across + 9;
+    const std::uint64_t fixed = 9 * cells + 16;
+    std::uint64_t range = std::max<std::uint64_t>(loopsBeyond(fixed) / each, 1);
+    if (binning_ == "bitmask") range = std::max<std::uint64_t>(range / 32 * 32, 32);  // whole words
     passes_.set("entryRange", static_cast<std::uint32_t>(std::min<std::uint64_t>(range, 0x7fffffff)));
-    const bool owned = commit_ == "tile-owned";
+    const bool owned = commit_->has(kWritesTiles);
     for (std::uint64_t begin = 0; begin == 0 || begin < largestBin_; begin += range) {
       passes_.set("entryBegin", static_cast<std::uint32_t>(begin));
       passes_.set("loadFrame", owned && first && begin == 0 && !frame_.plan.clear ? 0u : 1u);
@@ -387,13 +411,13 @@ class FrameRun {
   void countBatch(bool all) {
     const auto words = readCounters();
     for (const CounterDoc& doc : counterDocs()) {
-      const bool work = doc.name == "tests" || doc.name == "covered" || doc.name == "atomics";
+      const bool work = doc.name == "tests" || doc.name == "covered" || doc.name == "atomics" || doc.name == "visited";
       if (!doc.inKernels || !(all || work)) continue;
       auto& sum = counted_[doc.name];
       const std::uint64_t value = count(words, doc.name);
       sum = doc.name == "largestBin" ? std::max(sum, value) : sum + value;
     }
-    if (all && binning_ != "none") countBins();
+    if (all && listed()) countBins();
   }
 
   /// Queues that did not run again have had no scan to count their entries.
@@ -446,14 +470,11 @@ class FrameRun {
 
   void readBack() {
     Framebuffer& image = frame_.image;
-    if (commit_ == "count") {
-      append(image.hits, "hits");
-      return;
-    }
-    append(image.depth, "depth");
-    append(image.ids, "ids");
-    if (frame_.plan.shade) append(image.colour, "colour");
-    if (frame_.plan.attribute) append(image.attribute, "values");
+    if (passes_.uses("hits")) append(image.hits, "hits");
+    if (passes_.uses("depth")) append(image.depth, "depth");
+    if (passes_.uses("ids")) append(image.ids, "ids");
+    if (passes_.uses("colour")) append(image.colour, "colour");
+    if (passes_.uses("values")) append(image.attribute, "values");
   }
 
   // ---- stage outputs
@@ -465,11 +486,10 @@ class FrameRun {
   void keepSetup() {
     keep("transform", "vertex, clip x y z w", 4, passes_.read<std::uint32_t>("clipSpace", 4 * scene_.vertexCount()));
     constexpr std::size_t words = kPieceBytes / 4;
-    const std::size_t slots = passes_.get("triangleCount") + passes_.get("extraCount");
-    auto pieces = passes_.read<std::uint32_t>("pieces", words * slots);
+    auto pieces = passes_.read<std::uint32_t>("pieces", words * slots());
     // An empty slot holds its id and nothing else; the extras are in the order in which lanes came.
     std::vector<std::array<std::uint32_t, words>> extras;
-    for (std::size_t i = 0; i < slots; ++i) {
+    for (std::size_t i = 0; i < slots(); ++i) {
       const auto piece = std::span(pieces).subspan(words * i, words);
       if (piece[words - 1] == kNoTriangle) std::ranges::fill(piece, kNoTriangle);
       if (i < passes_.get("triangleCount")) continue;
@@ -482,7 +502,8 @@ class FrameRun {
   }
 
   void keepFrame() {
-    if (binning_ != "none") keep("bin", "tile, pieces", 1, passes_.read<std::uint32_t>("tileCounts", tiles()));
+    if (passes_.uses("hits")) return;
+    if (listed()) keep("bin", "tile, pieces", 1, passes_.read<std::uint32_t>("tileCounts", tiles()));
     keep("raster", "pixel, depth", 1, passes_.read<std::uint32_t>("depth", pixels()));
     keep("raster", "pixel, id", 1, passes_.read<std::uint32_t>("ids", pixels()));
   }
@@ -493,7 +514,8 @@ class FrameRun {
   const Scene& scene_;
   const FrameOptions& options_;
   Frame frame_;
-  std::string commit_, binning_;
+  const AxisValue* commit_ = nullptr;
+  std::string binning_;
   std::uint32_t tile_ = kBlock, tilesX_ = 0, tilesY_ = 0;
   Band band_{};
   std::vector<Batch> batches_;

@@ -13,15 +13,15 @@ namespace tessera {
 
 const std::vector<Stage>& stages() {
   static const std::vector<Stage> list{
-      {"clear", "rasterizer/clear.slang", "clearVisibility"},
-      {"clear-packed", "rasterizer/clear.slang", "clearPacked"},
+      {"clear", "rasterizer/clear.slang", "clear"},
       {"transform", "rasterizer/transform.slang", "transform"},
       {"project", "rasterizer/transform.slang", "project"},
       {"setup", "rasterizer/setup.slang", "setup"},
-      {"bin-count", "rasterizer/bin.slang", "binCount"},
+      {"payload", "rasterizer/payload.slang", "payload"},
+      {"bin-count", "rasterizer/bin-count.slang", "binCount"},
       {"scan-blocks", "rasterizer/scan.slang", "scanBlocks"},
       {"scan-add", "rasterizer/scan.slang", "scanAdd"},
-      {"bin-insert", "rasterizer/bin.slang", "binInsert"},
+      {"bin-insert", "rasterizer/bin-insert.slang", "binInsert"},
       {"raster-tiles", "rasterizer/raster-tiles.slang", "rasterTiles"},
       {"raster-items", "rasterizer/raster-items.slang", "rasterItems"},
       {"resolve", "rasterizer/resolve.slang", "resolve"},
@@ -33,19 +33,18 @@ const std::vector<Stage>& stages() {
 
 std::vector<std::string> stagesOf(const Plan& plan) {
   const Variant& v = plan.resolved;
-  const std::string commit = v.get("commit"), binning = v.get("binning");
+  const std::string binning = v.get("binning");
   std::vector<std::string> names;
-  if (plan.clear && commit != "count") names.push_back(commit == "depth32+id32" ? "clear-packed" : "clear");
+  if (plan.clear) names.push_back("clear");
   names.push_back(plan.transform ? "transform" : "project");
   names.push_back("setup");
+  if (plan.payload) names.push_back("payload");
   if (binning == "exact") names.push_back("bin-count");
   if (binning == "exact" || (binning == "queue" && v.get("overflow") == "retry"))
     names.insert(names.end(), {"scan-blocks", "scan-add"});
-  if (binning == "none")
-    names.push_back("raster-items");
-  else
-    names.insert(names.end(), {"bin-insert", "raster-tiles"});
-  if (commit == "depth32+id32") names.push_back("resolve");
+  if (plan.binned && binning != "aabb-scan") names.push_back("bin-insert");
+  names.push_back(plan.binned ? "raster-tiles" : "raster-items");
+  if (plan.resolve) names.push_back("resolve");
   if (plan.shade) names.push_back("shade");
   if (plan.attribute) names.push_back("attribute");
   return names;

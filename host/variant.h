@@ -17,24 +17,41 @@ enum class AxisKind {
 };
 const char* kindName(AxisKind kind);  ///< "image", "implementation", "approximate"
 
+/// What a value asks of the device, and what the host has to do for it.
+enum Feature : unsigned {
+  kNeedsInt64 = 1,
+  kNeedsFloat64 = 2,
+  kNeedsAtomics64 = 4,
+  kNeedsCpu = 8,        ///< the CPU device
+  kNeedsVulkan = 16,    ///< a Vulkan device
+  kWritesTiles = 32,    ///< a commit that writes all pixels of its tiles: nothing has to be cleared
+  kResolves = 64,       ///< a commit whose words become depth and ids in `resolve`
+  kKeepsColours = 128,  ///< a commit that packs a colour of the triangle instead of its id
+  kTwoPasses = 256,     ///< a commit that rasterises twice
+};
+
 struct AxisValue {
   std::string name;
   std::string meaning;  ///< one line
   std::string slang;    ///< what the generated module says for it; empty: a host path
   AxisKind kind = AxisKind::kImplementation;
+  unsigned features = 0;  ///< of Feature
+  std::string source = {};  ///< paper or specification, where it is not the axis'
+  std::string limits = {};  ///< bound of the error, largest scene: one line
+
+  bool has(unsigned feature) const { return (features & feature) != 0; }
 };
 
 struct Axis {
   std::string name;
   std::string meaning;              ///< one line
-  std::string source;               ///< paper or specification
-  std::vector<std::string> stages;  ///< kernels that read it, by stage name; empty: the host reads it
-  std::vector<AxisValue> values;    ///< empty: an integer from `least` to `most`
-  long least = 0, most = 0;
-  std::string unset;   ///< what the plan chooses when it is not set, in words
-
+  std::string source = {};          ///< paper or specification
+  std::vector<std::string> stages = {};  ///< kernels that read it, by stage name; empty: the host reads it
+  std::vector<AxisValue> values = {};    ///< empty: an integer from `least` to `most`
+  std::string unset = {};           ///< what the plan chooses when it is not set, in words
   /// Whether its values are Slang types, which the module `variant` names; else constants, which go into `settings`.
   bool types = false;
+  long least = 0, most = 0;
 
   AxisKind kind() const;  ///< implementation where any value is; its other values say so themselves
 };
@@ -43,6 +60,18 @@ struct Axis {
 const std::vector<Axis>& axes();
 /// Throws kUsage, naming the axes there are.
 const Axis& axis(std::string_view name);
+/// Throws kUsage, naming the values there are. The axis has names for values.
+const AxisValue& axisValue(std::string_view axis, std::string_view value);
+
+/// Values that go only with some values of another axis.
+struct AxisRule {
+  std::string axis;
+  std::vector<std::string> values;  ///< empty: whatever it is set to
+  std::string other;
+  std::vector<std::string> only;
+  std::string why;  ///< one line
+};
+const std::vector<AxisRule>& axisRules();
 
 /// Chosen values. An axis that is not set is the plan's choice; a set one is honoured or refused.
 class Variant {
@@ -62,6 +91,9 @@ class Variant {
  private:
   std::map<std::string, std::string> values_;
 };
+
+/// Whether a set or resolved value is one whose error has to be measured.
+bool isApproximate(const Variant& variant);
 
 /// The two generated Slang modules of a kernel.
 struct VariantModules {

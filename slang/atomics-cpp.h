@@ -1,4 +1,6 @@
 // The atomics of atomics.slang in C++. Stands ahead of the C++ text that slangc writes.
+#include <sched.h>
+
 #include <cstdint>
 
 template <typename T, typename V> static inline T tesseraAtomicAdd(T* word, V value) {
@@ -29,3 +31,13 @@ template <typename T, typename E, typename V> static inline T tesseraAtomicCompa
   __atomic_compare_exchange_n(word, &before, T(value), false, __ATOMIC_RELAXED, __ATOMIC_RELAXED);
   return before;
 }
+
+// Returns the exchanges that it took. Whoever holds the lock leaves it after two loads and two stores, so others wait for
+// a bounded number of holders; a holder that the system has put aside is waited for without burning its core.
+template <typename T> static inline T tesseraLock(T* word) {
+  T tries = 1;
+  for (; __atomic_exchange_n(word, T(1), __ATOMIC_ACQUIRE) != 0; ++tries)
+    if (tries % 64 == 0) sched_yield();
+  return tries;
+}
+template <typename T> static inline void tesseraUnlock(T* word) { __atomic_store_n(word, T(0), __ATOMIC_RELEASE); }
