@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "datasets/checked.h"
+#include "datasets/ply-scalar.h"
 #include "datasets/text.h"
 
 namespace tessera {
@@ -22,11 +23,11 @@ void checkFormat(const Lines& lines) {
     lines.fail("format ascii, binary_little_endian or binary_big_endian, and 1.0, would be right");
 }
 
-void checkType(const Lines& lines, std::string_view type) {
-  constexpr std::array<std::string_view, 16> kTypes{"char",  "uchar",  "short",   "ushort", "int",   "uint",
-                                                    "float", "double", "int8",    "uint8",  "int16", "uint16",
-                                                    "int32", "uint32", "float32", "float64"};
-  if (std::ranges::find(kTypes, type) == kTypes.end()) lines.fail(fmt::format("'{}' is not a type of PLY", type));
+/// Its bytes.
+std::size_t checkType(const Lines& lines, std::string_view type) {
+  const std::size_t bytes = plyTypeBytes(type);
+  if (bytes == 0) lines.fail(fmt::format("'{}' is not a type of PLY", type));
+  return bytes;
 }
 
 }  // namespace
@@ -42,6 +43,11 @@ Checked checkPly(const std::string& name, std::string_view text) {
   lines.need("the format");
   while (lines.words()[0] == "comment" || lines.words()[0] == "obj_info") lines.need("the format");
   checkFormat(lines);
+  PlyVertices& ply = checked.ply;
+  ply.text = lines.words()[1] == "ascii";
+  ply.bigEndian = lines.words()[1] == "binary_big_endian";
+  std::size_t count = 0;  // of the element
+  bool pastVertices = false;
   std::string element;
   bool hasCorners = false;
   std::set<std::string, std::less<>> elements, properties;  // of the file; of the element
@@ -54,9 +60,11 @@ Checked checkPly(const std::string& name, std::string_view text) {
       element = words[1];
       properties.clear();
       if (!elements.insert(element).second) lines.fail(fmt::format("element '{}' is there twice", element));
-      const auto count = lines.integer(2, "count of the element", 0, static_cast<std::int64_t>(text.size()));
-      if (element == "vertex") checked.vertices = static_cast<std::size_t>(count);
-      if (element == "face") checked.faces = static_cast<std::size_t>(count);
+      count =
+          static_cast<std::size_t>(lines.integer(2, "count of the element", 0, static_cast<std::int64_t>(text.size())));
+      pastVertices |= elements.contains("vertex") && element != "vertex";
+      if (element == "vertex") checked.vertices = count;
+      if (element == "face") checked.faces = count;
       continue;
     }
     const bool list = words.size() == 5 && words[1] == "list";
@@ -65,7 +73,15 @@ Checked checkPly(const std::string& name, std::string_view text) {
     const std::string_view property = words.back();
     if (!properties.insert(std::string(property)).second)
       lines.fail(fmt::format("property '{}' is there twice", property));
-    for (std::size_t i = list ? 2 : 1; i + 1 < words.size(); ++i) checkType(lines, words[i]);
+    std::size_t size = 1;
+    for (std::size_t i = list ? 2 : 1; i + 1 < words.size(); ++i)
+      if (const std::size_t bytes = checkType(lines, words[i]); !ply.text) size = bytes;
+    if (element == "vertex") {
+      ply.scalars.push_back({std::string(property), std::string(words[1]), ply.stride});
+      ply.stride += size;
+    } else if (!pastVertices) {
+      ply.before += count * size;
+    }
     const bool corners = property == "vertex_indices" || property == "vertex_index";
     // OpenMesh reads other lists as if they were single values, and everything after them from the wrong place.
     if (list && checked.wholeText && !(element == "face" && corners))
@@ -78,6 +94,7 @@ Checked checkPly(const std::string& name, std::string_view text) {
       lines.fail(fmt::format("'{}' of a vertex is {}; float or double would be right", property, words[1]));
     if (element == "face" && corners && std::exchange(hasCorners, true)) lines.fail("two lists of corners");
   }
+  ply.header = lines.at();
   if (checked.faces > 0 && !hasCorners) lines.fail("element 'face' has no list 'vertex_indices'");
   return checked;
 }

@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "datasets/input.h"
+
 namespace tessera {
 
 /// A face that OpenMesh would leave out, with the number that it has among the file's faces.
@@ -17,10 +19,25 @@ struct WithheldFace {
   std::vector<std::uint32_t> corners;
 };
 
+/// A number of a PLY file's vertices. Places are counted in words where the file is text, else in bytes.
+struct PlyScalar {
+  std::string name;
+  std::string type;       ///< one of PLY's sixteen
+  std::size_t place = 0;  ///< in a vertex
+};
+/// Where the vertices of a PLY file lie.
+struct PlyVertices {
+  bool text = true, bigEndian = false;
+  std::size_t header = 0;              ///< bytes; the data follow
+  std::size_t before = 0, stride = 0;  ///< what elements ahead of them take; one vertex
+  std::vector<PlyScalar> scalars;
+};
+
 struct Checked {
   std::string text;                     ///< for OpenMesh
   std::size_t vertices = 0, faces = 0;  ///< in the file, the withheld faces among them
   std::vector<WithheldFace> withheld;   ///< in order
+  PlyVertices ply;                      ///< of a PLY file
   bool wholeText = true;                ///< nothing but white space may be left when OpenMesh has read it
 };
 
@@ -28,5 +45,9 @@ struct Checked {
 Checked checkObj(const std::string& name, std::string_view text);
 Checked checkOff(const std::string& name, std::string_view text);
 Checked checkPly(const std::string& name, std::string_view text);
+
+/// An attribute of the vertices of a file that checkPly() has seen and that has been read to its end.
+std::vector<float> readPlyScalar(const std::string& name, std::string_view text, const Checked& checked,
+                                 const AttributeRequest& attribute);
 
 }  // namespace tessera

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "datasets/attribute.h"
 #include "datasets/generators.h"
 #include "datasets/scene-file.h"
 #include "datasets/text.h"
@@ -22,27 +23,33 @@ void setSize(Scene& scene, std::uint32_t width, std::uint32_t height) {
 
 }  // namespace
 
-Source loadSource(const std::string& source, const std::filesystem::path& folder) {
-  if (!source.starts_with(kGenerate)) return {readMesh(folder / source), false};
+Source loadSource(const std::string& source, const std::filesystem::path& folder, const AttributeRequest& attribute) {
+  if (!source.starts_with(kGenerate)) return {readMesh(folder / source, attribute), false};
   const std::string spec = source.substr(kGenerate.size());
+  if (!attribute.name.empty() && !attribute.isCoordinate()) failAttribute(source, attribute.name, kCoordinates);
   return {generateMesh(spec), parseGenerator(spec).generator->flat};
 }
 
-Scene loadInput(const std::string& input, std::uint32_t width, std::uint32_t height) {
+Scene loadInput(const std::string& input, std::uint32_t width, std::uint32_t height,
+                const AttributeRequest& attribute) {
   const std::filesystem::path path = input;
   const bool generated = input.starts_with(kGenerate);
   const std::string extension = generated ? "" : lowerCase(path.extension().string());
   Scene scene;
   setSize(scene, width, height);
-  if (extension == ".toml") return readSceneFile(path, width, height);
+  if (extension == ".toml") return readSceneFile(path, width, height, attribute);
   if (extension == ".replay") {
     scene = readReplay(path);
     setSize(scene, width, height);
+    if (!attribute.name.empty() && attribute.name != scene.attributeName)
+      failAttribute(input, attribute.name,
+                    scene.attribute.empty() ? std::vector<std::string>{} : std::vector{scene.attributeName});
     return scene;
   }
   scene.name = generated ? input.substr(kGenerate.size()) : path.stem().string();
-  const Source source = loadSource(input, "");
+  const Source source = loadSource(input, "", attribute);
   append(scene, source.mesh);
+  setCoordinates(scene, attribute);
   scene.clipFromObject = source.flat ? kIdentity : frameCamera(source.mesh, scene.width, scene.height);
   return scene;
 }
@@ -59,6 +66,7 @@ void append(Scene& scene, const Mesh& mesh) {
     scene.normals.insert(scene.normals.end(), mesh.normals.begin(), mesh.normals.end());
     scene.normals.resize(first + count, glm::vec3(0, 0, 1));
   }
+  scene.attribute.insert(scene.attribute.end(), mesh.attribute.begin(), mesh.attribute.end());
   scene.triangles.reserve(scene.triangles.size() + mesh.triangles.size());
   for (Triangle t : mesh.triangles) {
     // An index out of range must not reach the vertices of a mesh that comes later.

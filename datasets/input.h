@@ -3,18 +3,32 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "host/framebuffer.h"
 #include "host/scene.h"
 
 namespace tessera {
 
+/// A value a vertex, by name: x, y or z of its position as the scene has it (after the matrices of its meshes), or a
+/// scalar property of the vertices of a PLY file. With a range an integer property i of 0 to 32767 becomes A + (B - A)
+/// (i / 32767), in double precision and then rounded; of others it says nothing.
+struct AttributeRequest {
+  std::string name;  ///< empty: no attribute
+  std::optional<ValueRange> range;
+
+  bool isCoordinate() const { return name == "x" || name == "y" || name == "z"; }
+};
+
 /// A mesh that OpenMesh reads (.obj .off .ply .stl), `generate:NAME?key=value&...`, a scene (.toml) or a replay file
 /// (.replay). A lone mesh gets the camera of frameCamera(). Throws kUsage with one line: file, place, what is wrong,
 /// what would be right. `width` and `height` replace the scene's raster size (0: its own, 1024 for a lone mesh) and
-/// shape cameras, but for one given as a matrix. A flat generator fills the clip volume by the identity matrix.
-Scene loadInput(const std::string& input, std::uint32_t width = 0, std::uint32_t height = 0);
+/// shape cameras, but for one given as a matrix. A flat generator fills the clip volume by the identity matrix. Every
+/// mesh has to have the attribute.
+Scene loadInput(const std::string& input, std::uint32_t width = 0, std::uint32_t height = 0,
+                const AttributeRequest& attribute = {});
 
 /// Positions, triangles in the file's order (polygons fanned from their first corner), normals if the file has them,
 /// else computed (area-weighted vertex normals). Every face is kept: OpenMesh's half-edge mesh is not used for reading.
@@ -25,8 +39,9 @@ struct Mesh {
   std::vector<glm::vec3> positions;
   std::vector<glm::vec3> normals;
   std::vector<Triangle> triangles;
+  std::vector<float> attribute;  ///< empty, or one a vertex: what was asked for, but for a coordinate
 };
-Mesh readMesh(const std::filesystem::path& path);
+Mesh readMesh(const std::filesystem::path& path, const AttributeRequest& attribute = {});
 /// `spec` without the `generate:` prefix, e.g. "icosphere?level=5".
 Mesh generateMesh(const std::string& spec);
 
@@ -43,10 +58,12 @@ Matrix frameCamera(const Mesh& mesh, std::uint32_t width, std::uint32_t height);
 void append(Scene& scene, const Mesh& mesh);
 
 /// Clip-space positions (of the contract's transform, where the scene has object space ones) and triangles, bit-exact:
-/// what parity writes on a difference, and tests read. A replay file is text: see replay.cpp.
+/// and the attribute if there is one: what parity writes on a difference, and tests read. A replay file is text: see
+/// replay.cpp.
 void writeReplay(const std::filesystem::path& path, const Scene& scene);
 Scene readReplay(const std::filesystem::path& path);
-/// SHA-256 (hex) of what defines the image: size, matrix, positions or clip positions, triangles.
+/// SHA-256 (hex) of what defines the image: size, matrix, positions or clip positions, triangles, and
+/// the attribute if there is one.
 std::string sceneHash(const Scene& scene);
 
 }  // namespace tessera

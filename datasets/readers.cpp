@@ -7,6 +7,7 @@
 #include <mutex>
 #include <sstream>
 
+#include "datasets/attribute.h"
 #include "datasets/checked.h"
 #include "datasets/input.h"
 #include "datasets/normals.h"
@@ -86,12 +87,14 @@ Mesh readByOpenMesh(const std::string& name, const std::string& extension, const
 
 }  // namespace
 
-Mesh readMesh(const std::filesystem::path& path) {
+Mesh readMesh(const std::filesystem::path& path, const AttributeRequest& attribute) {
   const std::string name = path.string();
   const std::string extension = lowerCase(path.extension().string());
   const bool obj = extension == ".obj", off = extension == ".off", ply = extension == ".ply", stl = extension == ".stl";
   if (!obj && !off && !ply && !stl)
     failUsage(fmt::format("{}: unknown extension '{}'; .obj, .off, .ply or .stl would be right", name, extension));
+  const bool property = !attribute.name.empty() && !attribute.isCoordinate();
+  if (property && !ply) failAttribute(name, attribute.name, kCoordinates);
   const std::string text = readFile(path);
   Mesh mesh;
   if (stl) {
@@ -100,6 +103,7 @@ Mesh readMesh(const std::filesystem::path& path) {
     const bool binary = ply && text.substr(0, 200).find("format binary") != std::string::npos;
     const Checked checked = obj ? checkObj(name, text) : off ? checkOff(name, text) : checkPly(name, text);
     mesh = readByOpenMesh(name, extension.substr(1), checked, binary);
+    if (property) mesh.attribute = readPlyScalar(name, text, checked, attribute);
   }
   completeNormals(mesh);
   return mesh;

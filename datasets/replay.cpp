@@ -6,6 +6,7 @@
 //     size WIDTH HEIGHT
 //     vertices COUNT             then a line each: x y z w as 8 hexadecimal digits
 //     triangles COUNT            then a line each: three vertex indices, decimal
+//     attribute NAME             where there is one: then a line a vertex: its value as 8 hexadecimal digits
 //     end
 #include <fmt/format.h>
 
@@ -30,8 +31,8 @@ glm::vec4 transform(const Matrix& m, const glm::vec3& p) {
   return {row(0), row(4), row(8), row(12)};
 }
 
-float fromBits(const Lines& lines, std::size_t i) {
-  const std::string_view word = lines.word(i, "clip position (4 words)");
+float fromBits(const Lines& lines, std::size_t i, std::string_view what = "clip position (4 words)") {
+  const std::string_view word = lines.word(i, what);
   std::uint32_t bits = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), bits, 16);
   if (word.size() != 8 || error != std::errc{} || end != word.data() + word.size())
@@ -63,6 +64,10 @@ void writeReplay(const std::filesystem::path& path, const Scene& scene) {
   }
   fmt::format_to(out, "triangles {}\n", scene.triangles.size());
   for (const Triangle& t : scene.triangles) fmt::format_to(out, "{} {} {}\n", t[0], t[1], t[2]);
+  if (!scene.attribute.empty()) {
+    fmt::format_to(out, "attribute {}\n", scene.attributeName);
+    for (const float value : scene.attribute) fmt::format_to(out, "{:08x}\n", std::bit_cast<std::uint32_t>(value));
+  }
   fmt::format_to(out, "end\n");
   if (!writeBeside(path, {text.data(), text.size()})) fail(fmt::format("{}: cannot be written", path.string()));
 }
@@ -94,7 +99,17 @@ Scene readReplay(const std::filesystem::path& path) {
     for (std::size_t k = 0; k < 3; ++k)
       t[k] = static_cast<std::uint32_t>(lines.integer(k, "vertex index", 0, 0xffffffff));
   }
-  expect(lines, "end", 0);
+  lines.need("end");
+  if (lines.words()[0] == "attribute") {
+    scene.attributeName = lines.word(1, "name of the attribute");
+    scene.attribute.resize(scene.clip.size());
+    for (float& value : scene.attribute) {
+      lines.need("the last value");
+      value = fromBits(lines, 0, "value");
+    }
+    lines.need("end");
+  }
+  if (lines.words() != std::vector<std::string_view>{"end"}) lines.fail("'end' with 0 values would be right");
   return scene;
 }
 

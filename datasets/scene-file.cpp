@@ -11,6 +11,7 @@
 #include <glm/matrix.hpp>
 #include <optional>
 
+#include "datasets/attribute.h"
 #include "datasets/camera.h"
 #include "datasets/text.h"
 #include "host/error.h"
@@ -97,7 +98,8 @@ void applyMatrix(Mesh& mesh, const Matrix& m) {
 }
 
 /// Appends the mesh of one [[mesh]]; true if it fills clip space as it is.
-bool addMesh(Scene& scene, const std::string& file, const toml::table& table, const std::filesystem::path& folder) {
+bool addMesh(Scene& scene, const std::string& file, const toml::table& table, const std::filesystem::path& folder,
+             const AttributeRequest& attribute) {
   const Table mesh(file, table, "[[mesh]]", {"source", "matrix"});
   const toml::node& source = mesh.need("source", "a path relative to this file, or generate:NAME");
   const auto text = source.value<std::string>();
@@ -107,7 +109,7 @@ bool addMesh(Scene& scene, const std::string& file, const toml::table& table, co
     mesh.fail(mesh.find("matrix")->source(), "matrix: a last row of 0, 0, 0, 1 would be right");
   Source loaded = [&]() -> Source {
     try {
-      return loadSource(*text, folder);
+      return loadSource(*text, folder, attribute);
     } catch (const Error& error) {
       mesh.fail(source.source(), error.what());
     }
@@ -151,7 +153,8 @@ Matrix readCamera(const std::string& file, const toml::table& table, std::uint32
 
 }  // namespace
 
-Scene readSceneFile(const std::filesystem::path& path, std::uint32_t width, std::uint32_t height) {
+Scene readSceneFile(const std::filesystem::path& path, std::uint32_t width, std::uint32_t height,
+                    const AttributeRequest& attribute) {
   const std::string file = path.string();
   toml::table root;
   try {
@@ -179,12 +182,14 @@ Scene readSceneFile(const std::filesystem::path& path, std::uint32_t width, std:
   const toml::node& meshes = top.need("mesh", "at least one [[mesh]] would be right");
   if (!meshes.is_array_of_tables()) top.fail(meshes.source(), "mesh: [[mesh]] would be right");
   bool flat = true;
-  for (const toml::node& mesh : *meshes.as_array()) flat &= addMesh(scene, file, *mesh.as_table(), path.parent_path());
+  for (const toml::node& mesh : *meshes.as_array())
+    flat &= addMesh(scene, file, *mesh.as_table(), path.parent_path(), attribute);
+  setCoordinates(scene, attribute);
   if (const toml::node* const camera = top.find("camera")) {
     if (!camera->is_table()) top.fail(camera->source(), "camera: [camera] would be right");
     scene.clipFromObject = readCamera(file, *camera->as_table(), scene.width, scene.height);
   } else if (!flat) {
-    scene.clipFromObject = frameCamera({scene.positions, {}, {}}, scene.width, scene.height);
+    scene.clipFromObject = frameCamera({scene.positions, {}, {}, {}}, scene.width, scene.height);
   }
   return scene;
 }

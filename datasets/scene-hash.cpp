@@ -51,6 +51,7 @@ std::string sceneHash(const Scene& scene) {
   hash.add(std::span<const glm::vec3>(scene.positions));
   hash.add(std::span<const glm::vec4>(scene.clip));
   hash.add(std::span<const Triangle>(scene.triangles));
+  if (!scene.attribute.empty()) hash.add(std::span<const float>(scene.attribute));
   return hash.hex();
 }
 

@@ -109,6 +109,14 @@ std::optional<std::int64_t> toInteger(std::string_view word) {
   return value;
 }
 
+std::optional<double> toDouble(std::string_view word) {
+  word = withoutPlus(word);
+  double value = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (error != std::errc{} || end != word.data() + word.size() || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
 std::optional<float> toReal(std::string_view word) {
   word = withoutPlus(word);
   float value = 0;

@@ -1,6 +1,7 @@
 // Walking through the lines and words of a text file, with the place at hand for messages.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -23,6 +24,7 @@ class Lines {
   /// The same, or a message that the file ends before `what`.
   void need(std::string_view what);
   const std::vector<std::string_view>& words() const { return words_; }
+  std::size_t at() const { return std::min(at_, text_.size()); }  ///< bytes up to the end of the line
   /// A line that ends in a backslash goes on in the next one.
   void joinContinued() { continued_ = true; }
   [[noreturn]] void fail(std::string_view wrong) const;  ///< kUsage: "file:line: wrong"
@@ -49,6 +51,8 @@ std::string lowerCase(std::string_view text);
 
 /// The whole word as an integer, if it is one that fits.
 std::optional<std::int64_t> toInteger(std::string_view word);
+/// The whole word as a finite double, if it is one.
+std::optional<double> toDouble(std::string_view word);
 /// The whole word as a finite float32, if it is one.
 std::optional<float> toReal(std::string_view word);
 
