@@ -126,7 +126,7 @@ std::vector<Axis> binAxes() {
       {"tile",
        "edge of a tile, pixels",
        "",
-       {"bin-count", "bin-insert", "raster-tiles"},
+       {"clear", "bin-count", "bin-insert", "raster-tiles"},
        {{"8", "one cell", tileSize(3)},
         {"16", "2 x 2 cells", tileSize(4)},
         {"32", "4 x 4 cells", tileSize(5)},
