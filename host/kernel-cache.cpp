@@ -250,6 +250,8 @@ std::string KernelCache::cxx() const {
 
 fs::path KernelCache::folder() const { return state_->options.folder; }
 
+fs::path KernelCache::sourcesFolder() const { return state_->options.slangSources; }
+
 KernelCache::Statistics KernelCache::statistics() const { return {state_->hits, state_->compiled, state_->rebuilt}; }
 
 }  // namespace tessera

@@ -65,6 +65,7 @@ class KernelCache {
   const ToolInfo& slangc() const;    ///< the compiler in use: one whose SPIR-V passes checkSpirv()
   std::string cxx() const;           ///< "g++ 12.2.0, -O3 -march=native ... (znver4)"
   std::filesystem::path folder() const;
+  std::filesystem::path sourcesFolder() const;  ///< the Slang sources in use
   Statistics statistics() const;
 
  private:

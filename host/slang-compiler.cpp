@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "host/error.h"
+#include "host/files.h"
 #include "host/reflection.h"
 #include "host/slang-sources.h"
 #include "host/spirv-reflection.h"
@@ -100,13 +101,31 @@ void checkDependencies(const std::string& rule, const std::map<fs::path, std::st
   check(file);
 }
 
-/// Slang's C++ with what stands ahead of it, to a shared object.
+/// slangc with the generated modules, which it finds in `work`.
+std::vector<std::string> slangCommand(const KernelRequest& request, const ToolInfo& slangc,
+                                      const fs::path& slangSources, const std::vector<std::string>& flags,
+                                      const fs::path& work, const fs::path& made) {
+  std::ofstream(work / "settings.slang") << request.modules.settings;
+  std::ofstream(work / "variant.slang") << request.modules.variant;
+  const fs::path source = request.file.empty() ? slangSources / request.source : request.file;
+  std::vector<std::string> arguments{slangc.path.string(), source.string(), "-I", work.string(), "-I",
+                                     slangSources.string()};
+  append(arguments, flags);
+  append(arguments, {"-entry", request.entry, "-stage", "compute", "-o", made.string()});
+  return arguments;
+}
+
+/// Slang's C++ with the functions that it calls.
+std::string wholeCpp(const fs::path& slangSources, const std::string& generated) {
+  const fs::path atomics = slangSources / "atomics-cpp.h";
+  return (fs::exists(atomics) ? readText(atomics) : "") + generated;
+}
+
+/// Slang's C++ to a shared object.
 void compileCpp(const KernelRequest& request, const CompileSettings& settings, const std::string& generated,
                 const fs::path& work) {
   const fs::path source = work / "kernel.cpp", made = work / binaryName(request.route);
-  const fs::path atomics = settings.slangSources / "atomics-cpp.h";
-  std::ofstream(source) << (settings.boundsChecks ? kBoundsChecks : "")
-                        << (fs::exists(atomics) ? readText(atomics) : "") << generated;
+  std::ofstream(source) << (settings.boundsChecks ? kBoundsChecks : "") << wholeCpp(settings.slangSources, generated);
   std::vector<std::string> arguments{settings.cxx.path.string()};
   append(arguments, cxxBaseFlags());
   append(arguments, settings.cxxFlags);
@@ -165,18 +184,13 @@ namespace {
 
 KernelInterface compileSlang(const KernelRequest& request, const CompileSettings& settings,
                              const std::map<fs::path, std::string>& sources, const fs::path& work) {
-  std::ofstream(work / "settings.slang") << request.modules.settings;
-  std::ofstream(work / "variant.slang") << request.modules.variant;
   const fs::path reflection = work / "reflection.json", dependencies = work / "dependencies";
   const fs::path made = request.route == Route::kSpirv
                             ? work / binaryName(request.route)
                             : work / (request.route == Route::kCpp ? "slang.cpp" : "kernel.comp");
-  const fs::path source = request.file.empty() ? settings.slangSources / request.source : request.file;
-  std::vector<std::string> arguments{settings.slangc.path.string(), source.string(), "-I", work.string(), "-I",
-                                     settings.slangSources.string()};
-  append(arguments, slangFlags(request.route));
-  append(arguments, {"-entry", request.entry, "-stage", "compute", "-o", made.string(), "-reflection-json",
-                     reflection.string(), "-depfile", dependencies.string()});
+  std::vector<std::string> arguments =
+      slangCommand(request, settings.slangc, settings.slangSources, slangFlags(request.route), work, made);
+  append(arguments, {"-reflection-json", reflection.string(), "-depfile", dependencies.string()});
   runCompiler(request, arguments, made);
 
   if (fs::exists(dependencies)) checkDependencies(readText(dependencies), sources, work);
@@ -205,6 +219,18 @@ KernelInterface compileKernel(const KernelRequest& request, const CompileSetting
     const ExitCode code = request.file.empty() ? error.code() : ExitCode::kUsage;
     throw Error(code, what.rfind(name, 0) == 0 ? what : name + ": " + what);
   }
+}
+
+std::string writtenBySlang(const KernelRequest& request, const std::string& target, const ToolInfo& slangc,
+                           const fs::path& slangSources) {
+  const TemporaryFolder work(fs::temp_directory_path(), "tessera-emit");
+  const fs::path made = work.path() / "made";
+  const bool cpp = request.route == Route::kCpp;
+  std::vector<std::string> flags{"-target", target, "-fp-mode", "precise", "-line-directive-mode", "none"};
+  if (cpp) flags = slangFlags(request.route);
+  if (target == "wgsl") flags.push_back("-DTESSERA_WGSL");  // slang/atomics.slang
+  runCompiler(request, slangCommand(request, slangc, slangSources, flags, work.path(), made), made);
+  return cpp ? wholeCpp(slangSources, readText(made)) : readText(made);
 }
 
 }  // namespace tessera

@@ -1,22 +1,29 @@
-// tessera kernels: compiles ahead what rendering would compile at first use.
+// tessera kernels: compiles ahead what rendering would compile at first use; writes kernels for other machines.
 #include <fmt/format.h>
 
 #include <array>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 
 #include "datasets/input.h"
 #include "host/cli/commands.h"
 #include "host/cli/common.h"
 #include "host/cli/measure.h"
+#include "host/cli/table.h"
+#include "host/emit.h"
+#include "host/error.h"
+#include "host/files.h"
 #include "host/kernel-cache.h"
 #include "host/plan.h"
+#include "host/stages.h"
 
 namespace tessera::cli {
 namespace {
 
 struct KernelsOptions : Options {
   bool prebuild = false;
+  std::vector<std::string> emit;  ///< target and folder
 };
 
 /// What the plan chooses where nothing is set: in perspective and without, with clipping and without, shaded and not.
@@ -32,7 +39,52 @@ std::vector<Plan> defaultPlans(const DeviceInfo& device) {
   return plans;
 }
 
+/// Without an input: a small scene that needs the stages which most variants have.
+Plan planToEmit(const KernelsOptions& options, const EmitTarget& target) {
+  Variant variant = variantOf(options);
+  if (!options.input.empty()) return makePlan(sceneOf(options), variant, target.device);
+  if (!variant.has("shade")) variant.set("shade", "flat");
+  if (!variant.has("clip")) variant.set("clip", "on");
+  return makePlan(loadInput("generate:icosphere?level=1"), variant, target.device);
+}
+
+ExitCode emit(const KernelsOptions& options) {
+  namespace fs = std::filesystem;
+  const EmitTarget& target = emitTarget(options.emit[0]);
+  const fs::path folder = options.emit[1];
+  const Plan plan = planToEmit(options, target);
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error || !fs::is_directory(folder))
+    failUsage(fmt::format("--emit {} {}: the folder cannot be made; a name that is free, or a folder, would do",
+                          target.name, folder.string()));
+  KernelCache kernels;
+  std::vector<std::vector<std::string>> rows{{"stage", "bytes", "file"}};
+  std::size_t missing = 0;
+  for (KernelRequest request : kernelRequests(plan, {})) {
+    request.route = target.route;
+    const Emitted emitted = emitKernel(kernels, request, target);
+    const fs::path file = folder / fmt::format("{}.{}", emitted.stage, target.extension);
+    if (emitted.complaint.empty())
+      writeText(file, emitted.bytes);
+    else
+      ++missing;
+    rows.push_back(emitted.complaint.empty()
+                       ? std::vector<std::string>{emitted.stage, grouped(emitted.bytes.size()), file.string()}
+                       : std::vector<std::string>{emitted.stage, "-", emitted.complaint});
+  }
+  fmt::print("{}", table(rows));
+  if (missing == 0) return ExitCode::kDone;
+  fmt::print(stderr, "{} of {} stages cannot be written for {}: the table says why\n", missing, rows.size() - 1,
+             target.name);
+  return ExitCode::kUnsupported;
+}
+
 ExitCode runKernels(const KernelsOptions& options) {
+  if (!options.emit.empty()) return emit(options);
+  if (!options.prebuild) failUsage("kernels: nothing to do; --prebuild or --emit TARGET DIR is needed");
+  if (!options.input.empty() || !options.settings.empty())
+    failUsage("kernels --prebuild: takes neither INPUT nor --set; --emit does");
   std::vector<Plan> plans;
   for (const auto& name : options.devices.empty() ? presentDevices() : options.devices) {
     const auto device = openDevice(name, 0);
@@ -51,9 +103,27 @@ ExitCode runKernels(const KernelsOptions& options) {
 Command addKernels(CLI::App& app) {
   auto options = std::make_shared<KernelsOptions>();
   auto* const command = app.add_subcommand("kernels", "compile kernels ahead of their first use");
-  command->add_flag("--prebuild", options->prebuild, "compile those of the default variants into the kernel cache")
-      ->required();
+  auto* const prebuild =
+      command->add_flag("--prebuild", options->prebuild, "compile those of the default variants into the kernel cache");
+  command
+      ->add_option("--emit", options->emit,
+                   "write each stage of a variant into DIR, as spirv, glsl, hlsl, wgsl, metal, cuda or cpp")
+      ->expected(2)
+      ->type_name("TARGET DIR")
+      ->excludes(prebuild);
+  addInput(*command, *options);
+  command->get_option("INPUT")->required(false);
+  addSettings(*command, *options);
   addDevice(*command, *options, true);
+  command->footer(
+      "--emit writes the stages that the plan runs: of INPUT, else of a small scene with clipping and shading.\n"
+      "That a file is written does not make it valid: host/languages.md says what was judged, and by which compiler.\n"
+      "Exit code 4 when the target cannot take a stage.\n\n"
+      "Examples:\n"
+      "  tessera kernels --prebuild --device cpu\n"
+      "  tessera kernels --emit wgsl out/wgsl\n"
+      "  tessera kernels --emit spirv out/spirv --set commit=two-pass --set tile=16\n\n" +
+      axesHelp());
   return {command, [options] { return runKernels(*options); }};
 }
 

@@ -1,0 +1,64 @@
+#include "host/emit.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "host/error.h"
+#include "host/files.h"
+#include "host/slang-compiler.h"
+#include "host/slang-sources.h"
+
+namespace tessera {
+namespace {
+
+DeviceInfo machine(const char* name, const char* api = "vulkan") {
+  DeviceInfo device;
+  device.api = api;
+  device.name = name;
+  return device;
+}
+
+/// WGSL has 32-bit scalars only, and a WebGPU device need not give a group more than 16 KiB
+/// (maxComputeWorkgroupStorageSize).
+DeviceInfo webgpu() {
+  DeviceInfo device = machine("WGSL");
+  device.int64 = device.float64 = device.atomicMin64 = false;
+  device.maxGroupBytes = 16384;
+  return device;
+}
+
+}  // namespace
+
+const std::vector<EmitTarget>& emitTargets() {
+  static const std::vector<EmitTarget> list{
+      {"spirv", "spv", Route::kSpirv, machine("SPIR-V")}, {"glsl", "comp", Route::kGlsl, machine("GLSL")},
+      {"cpp", "cpp", Route::kCpp, machine("C++", "cpu")}, {"wgsl", "wgsl", Route::kSpirv, webgpu()},
+      {"hlsl", "hlsl", Route::kSpirv, machine("HLSL")},   {"metal", "metal", Route::kSpirv, machine("Metal")},
+      {"cuda", "cu", Route::kSpirv, machine("CUDA")}};
+  return list;
+}
+
+const EmitTarget& emitTarget(std::string_view name) {
+  const auto found = std::ranges::find(emitTargets(), name, &EmitTarget::name);
+  if (found != emitTargets().end()) return *found;
+  std::vector<std::string> names;
+  for (const EmitTarget& target : emitTargets()) names.push_back(target.name);
+  failUsage(fmt::format("--emit {}: no such target; there are {}", name, fmt::join(names, ", ")));
+}
+
+Emitted emitKernel(KernelCache& cache, const KernelRequest& request, const EmitTarget& target) {
+  Emitted emitted{request.stage, "", ""};
+  try {
+    if (target.name == "spirv")  // the very module that runs
+      emitted.bytes = readText(cache.get(request).binary);
+    else
+      emitted.bytes = writtenBySlang(request, target.name, cache.slangc(), cache.sourcesFolder());
+  } catch (const Error& error) {
+    emitted.complaint = error.what();
+  }
+  return emitted;
+}
+
+}  // namespace tessera
