@@ -42,11 +42,15 @@ std::string osName() {
   return fmt::format("{} {} {}", name.sysname, name.release, name.machine);
 }
 
-Json sceneJson(const Scene& scene) {
-  return {{"name", scene.name},
-          {"sha256", sceneHash(scene)},
-          {"triangles", scene.triangles.size()},
-          {"size", {scene.width, scene.height}}};
+Json sceneJson(const Run& run) {
+  const Scene& scene = *run.scene;
+  Json json = {{"name", scene.name},
+               {"sha256", sceneHash(scene)},
+               {"triangles", scene.triangles.size()},
+               {"size", {scene.width, scene.height}}};
+  if (!scene.attribute.empty()) json["attribute"] = {{"name", scene.attributeName}};
+  if (run.attributeRange) json["attribute"]["range"] = {run.attributeRange->least, run.attributeRange->most};
+  return json;
 }
 
 Json timeJson(const Run& run) {
@@ -59,15 +63,26 @@ Json timeJson(const Run& run) {
           {"iqr", total.iqr},  {"stages", stages},       {"clock", run.device.timeClock}};
 }
 
-Json errorJson(const Difference& difference) {
-  Json json = {{"pixels", difference.pixels},
-               {"coverage_mismatch", difference.coverage},
-               {"id_mismatch", difference.id},
-               {"depth_mismatch", difference.depth},
-               {"hit_count_mismatch", difference.hits},
-               {"depth_max_ulp", difference.depthMaxUlp},
-               {"depth_max_abs", difference.depthMaxAbs}};
-  if (std::isfinite(difference.psnr)) json["psnr"] = difference.psnr;  // JSON has no infinity
+Json errorJson(const Run& run) {
+  Json json = Json::object();
+  // JSON has no infinity.
+  const auto put = [&](const char* name, double value) {
+    if (std::isfinite(value)) json[name] = value;
+  };
+  if (run.difference) {
+    const Difference& difference = *run.difference;
+    json = {{"pixels", difference.pixels},           {"coverage_mismatch", difference.coverage},
+            {"id_mismatch", difference.id},          {"depth_mismatch", difference.depth},
+            {"hit_count_mismatch", difference.hits}, {"attribute_mismatch", difference.attribute}};
+    put("depth_max_ulp", difference.depthMaxUlp);
+    put("depth_max_abs", difference.depthMaxAbs);
+    put("psnr", difference.psnr);
+  }
+  if (run.hitCountNotOne) json["hit_count_not_one"] = *run.hitCountNotOne;
+  if (run.attributeError) {
+    put("attribute_max", run.attributeError->max);
+    put("attribute_rms", run.attributeError->rms);
+  }
   return json;
 }
 
@@ -151,11 +166,11 @@ std::string rowText(const Run& run) {
   for (const auto& [axis, value] : run.variant.values()) row["variant"][axis] = value;
   for (const auto& [stage, file] : run.kernelFiles)
     row["kernel_files"][stage] = {{"file", file.first}, {"sha256", file.second}};
-  if (run.scene) row["scene"] = sceneJson(*run.scene);
+  if (run.scene) row["scene"] = sceneJson(run);
   row["status"] = run.status;
   if (!run.message.empty()) row["message"] = run.message;
   if (!run.samples.empty()) row["time_ns"] = timeJson(run);
-  if (run.difference) row["error"] = errorJson(*run.difference);
+  if (const Json error = errorJson(run); !error.empty()) row["error"] = error;
   if (!run.counters.empty()) row["counters"] = run.counters;
   if (run.peakBufferBytes != 0) row["memory"] = {{"peak_buffer_bytes", run.peakBufferBytes}};
   if (!run.plan.empty()) row["plan"] = planJson(run.plan);

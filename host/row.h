@@ -12,6 +12,7 @@
 #include "host/error.h"
 #include "host/image.h"
 #include "host/rasterizer.h"
+#include "host/reference.h"
 #include "host/scene.h"
 
 namespace tessera {
@@ -25,8 +26,11 @@ struct Run {
   Variant variant;            ///< resolved by the plan where there is one, else as it was asked for
   const Scene* scene = nullptr;
   DeviceInfo device;
-  std::vector<FrameTimes> samples;       ///< one a timed frame, raw
-  std::optional<Difference> difference;  ///< from the oracle
+  std::vector<FrameTimes> samples;                          ///< one a timed frame, raw
+  std::optional<Difference> difference;                     ///< from the oracle
+  std::optional<std::uint64_t> hitCountNotOne;              ///< pixels that are hit, but not once; of commit=count
+  std::optional<reference::AttributeError> attributeError;  ///< from the exact value
+  std::optional<ValueRange> attributeRange;                 ///< that was asked for
   Counters counters;
   std::vector<PlanEntry> plan;
   std::string slang;                           ///< version of the slangc in use

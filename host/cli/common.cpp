@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <cstdio>
 
 #include "datasets/input.h"
@@ -42,6 +43,20 @@ Size parseSize(const std::string& text) {
   return size;
 }
 
+ValueRange parseRange(const std::string& text) {
+  ValueRange range;
+  const char* const end = text.data() + text.size();
+  const auto [comma, first] = std::from_chars(text.data(), end, range.least);
+  bool good = first == std::errc{} && comma != end && *comma == ',';
+  if (good) {
+    const auto [rest, second] = std::from_chars(comma + 1, end, range.most);
+    good = second == std::errc{} && rest == end;
+  }
+  if (!good || !std::isfinite(range.least) || !std::isfinite(range.most) || range.least == range.most)
+    failUsage(fmt::format("--range {}: not a range; two different numbers, e.g. -1,2.5, would be", text));
+  return range;
+}
+
 }  // namespace
 
 void addInput(CLI::App& app, Options& options) {
@@ -63,6 +78,19 @@ void addKernelFiles(CLI::App& app, Options& options) {
          "run FILE (.slang, .hlsl, or GLSL as .comp or .glsl) in place of a stage's own kernel; repeat for more")
       ->type_name("STAGE=FILE")
       ->allow_extra_args(false);
+}
+
+void addAttribute(CLI::App& app, Options& options) {
+  auto* const attribute =
+      app.add_option("--attribute", options.attribute,
+                     "a raster of values: x, y or z, or a scalar property of a PLY file's vertices, over each triangle")
+          ->type_name("NAME");
+  app.add_option(
+         "--range", options.range,
+         "what the attribute spans in pictures and relative errors; integer properties of 0 to 32767 are mapped "
+         "to it")
+      ->type_name("A,B")
+      ->needs(attribute);
 }
 
 void addThreads(CLI::App& app, Options& options) {
@@ -110,10 +138,15 @@ KernelFiles kernelFilesOf(const Options& options) {
   return files;
 }
 
+AttributeRequest attributeOf(const Options& options) {
+  AttributeRequest request{options.attribute, {}};
+  if (!options.range.empty()) request.range = parseRange(options.range);
+  return request;
+}
+
 Scene sceneOf(const Options& options) {
-  if (options.size.empty()) return loadInput(options.input);
-  const Size size = parseSize(options.size);
-  return loadInput(options.input, size.width, size.height);
+  const Size size = options.size.empty() ? Size{0, 0} : parseSize(options.size);  // 0: the scene's own
+  return loadInput(options.input, size.width, size.height, attributeOf(options));
 }
 
 std::unique_ptr<Device> openDevice(const std::string& name, unsigned threads) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "datasets/input.h"
 #include "host/device.h"
 #include "host/kernel-cache.h"
 #include "host/scene.h"
@@ -21,11 +22,13 @@ struct Options {
   std::vector<std::string> settings;  ///< "axis=value"
   std::vector<std::string> kernels;   ///< "STAGE=FILE"
   std::vector<std::string> devices;   ///< "cpu", "vulkan", "vulkan:N", "vulkan:NAME"
+  std::string attribute, range;       ///< its name; "A,B"
   unsigned threads = 0;               ///< of the CPU device; 0: all cores
 };
 
 void addInput(CLI::App& app, Options& options);
 void addSettings(CLI::App& app, Options& options);
+void addAttribute(CLI::App& app, Options& options);
 void addKernelFiles(CLI::App& app, Options& options);
 void addThreads(CLI::App& app, Options& options);
 void addRepeat(CLI::App& app, unsigned& repeat);
@@ -35,7 +38,9 @@ void addDevice(CLI::App& app, Options& options, bool many);
 Variant variantOf(const Options& options);
 /// The user's kernels, of which each file is there and in a language that we know. Throws kUsage.
 KernelFiles kernelFilesOf(const Options& options);
-/// Loads the input; a size that was given replaces the scene's, and its camera follows.
+/// --attribute and --range.
+AttributeRequest attributeOf(const Options& options);
+/// Loads the input and its attribute; a size that was given replaces the scene's, and its camera follows.
 Scene sceneOf(const Options& options);
 std::unique_ptr<Device> openDevice(const std::string& name, unsigned threads);
 /// The one device of a command that takes one: the CPU unless another was named.

@@ -1,7 +1,9 @@
 #include "host/cli/measure.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <set>
@@ -9,6 +11,7 @@
 
 #include "host/cli/progress.h"
 #include "host/error.h"
+#include "host/oracle-image.h"
 #include "host/stages.h"
 #include "host/user-kernel.h"
 
@@ -66,8 +69,18 @@ Frame measure(Run& run, Rasterizer& rasterizer, KernelCache& kernels, unsigned r
   return first;
 }
 
+void measureError(Run& run, const Framebuffer& image) {
+  if (!image.hits.empty())
+    run.hitCountNotOne =
+        static_cast<std::uint64_t>(std::ranges::count_if(image.hits, [](std::uint32_t hits) { return hits > 1; }));
+  if (!image.attribute.empty()) run.attributeError = reference::attributeError(*run.scene, imageOf(run.variant), image);
+}
+
 std::string frameLabel(const Run& run) {
-  return run.variant.get("shade", "none") == "none" ? "frame" : "frame without shade";
+  std::vector<std::string> after;
+  if (run.variant.get("shade", "none") != "none") after.push_back("shade");
+  if (!run.scene->attribute.empty()) after.push_back("attribute");
+  return after.empty() ? "frame" : fmt::format("frame without {}", fmt::join(after, ", "));
 }
 
 }  // namespace tessera::cli

@@ -22,6 +22,9 @@ Run beginRun(const Scene& scene, const Variant& variant, const Device& device, c
 Frame measure(Run& run, Rasterizer& rasterizer, KernelCache& kernels, unsigned repeat,
               const std::function<void(unsigned)>& progress = {});
 
+/// What a frame tells of its own error, in `run`: hits under commit=count, the attribute's error from its exact value.
+void measureError(Run& run, const Framebuffer& image);
+
 /// A table's name for the whole frame's time, which ends with the visibility buffer.
 std::string frameLabel(const Run& run);
 

@@ -16,7 +16,10 @@ class Oracle {
   Oracle(const Scene& scene, const Variant& variant);
 
   Difference against(const Framebuffer& frame);
-  /// The oracle's image reduced to what the frame holds: hits under commit=count, depth and ids otherwise.
+  /// Colours from elsewhere, before any frame's.
+  void holdColours(std::vector<glm::vec3> colours) { image_.colour = std::move(colours); }
+  /// The oracle's image reduced to what the frame holds: hits under commit=count, depth and ids
+  /// otherwise.
   Framebuffer expected(const Framebuffer& frame) const;
 
  private:

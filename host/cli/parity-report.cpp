@@ -19,7 +19,8 @@ const char* verdictText(Outcome::Verdict verdict) {
 }
 
 std::string verdictTable(const std::vector<Outcome>& outcomes) {
-  Rows rows{{"device", "route", "name", "probe", "covered", "coverage", "ids", "depths", "hits", "colours", "verdict"}};
+  Rows rows{{"device", "route", "name", "probe", "covered", "coverage", "ids", "depths", "hits", "values", "colours",
+             "verdict"}};
   for (const auto& outcome : outcomes) {
     const Difference difference = outcome.run.difference.value_or(Difference{});
     // A dash where there was nothing to compare: no shading, or no depths and ids under commit=count.
@@ -28,11 +29,13 @@ std::string verdictTable(const std::vector<Outcome>& outcomes) {
     };
     const Variant& variant = outcome.run.variant;
     const bool counting = variant.get("commit") == "count", shaded = variant.get("shade") != "none";
+    const bool valued = outcome.run.scene && !outcome.run.scene->attribute.empty();
     const std::string probe = outcome.probe.results.empty() ? "not run" : verdictOf(outcome.probe);
-    rows.push_back(
-        {outcome.attempt.device, outcome.attempt.route, outcome.run.device.name, probe, count(true, outcome.covered),
-         count(!counting, difference.coverage), count(!counting, difference.id), count(!counting, difference.depth),
-         count(counting, difference.hits), count(shaded, difference.colour), verdictText(outcome.verdict())});
+    rows.push_back({outcome.attempt.device, outcome.attempt.route, outcome.run.device.name, probe,
+                    count(true, outcome.covered), count(!counting, difference.coverage),
+                    count(!counting, difference.id), count(!counting, difference.depth),
+                    count(counting, difference.hits), count(valued, difference.attribute),
+                    count(shaded, difference.colour), verdictText(outcome.verdict())});
   }
   return table(rows);
 }

@@ -93,6 +93,8 @@ class Parity {
       const Framebuffer image = measure(run, rasterizer, kernels_, options_.repeat).image;
       run.peakBufferBytes = device.peakBufferBytes();
       run.difference = oracle.against(image);
+      run.attributeRange = attributeOf(options_).range;
+      measureError(run, image);
       outcome.covered = coveredPixels(image);
       if (!run.difference->equal())
         outcome.note = firstPixel(*run.difference, {"oracle", oracle.expected(image)}, {attempt.name(), image});
@@ -163,6 +165,7 @@ Command addParity(CLI::App& app) {
   addInput(*command, *options);
   addDevice(*command, *options, true);
   addSettings(*command, *options);
+  addAttribute(*command, *options);
   addKernelFiles(*command, *options);
   addThreads(*command, *options);
   addRepeat(*command, options->repeat);

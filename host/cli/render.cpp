@@ -8,6 +8,7 @@
 #include "host/cli/common.h"
 #include "host/cli/measure.h"
 #include "host/cli/progress.h"
+#include "host/cli/render-error.h"
 #include "host/cli/table.h"
 #include "host/image.h"
 #include "host/kernel-cache.h"
@@ -21,6 +22,7 @@ struct RenderOptions : Options {
   std::vector<std::string> outputs;
   std::string json;
   unsigned repeat = 1;
+  bool error = false;
 };
 
 Variant counting(Variant variant) {
@@ -44,6 +46,7 @@ std::string summary(const RenderOptions& options, const Run& run, std::uint64_t 
       {fmt::format("{} ({} of {})", frameLabel(run), run.samples.size() > 1 ? "median" : "time", run.samples.size()),
        milliseconds(totalSpread(run.samples).median)});
   text += table(rows);
+  text += errorSummary(run);
   for (const auto& output : options.outputs) text += fmt::format("wrote {}\n", output);
   return text;
 }
@@ -65,6 +68,11 @@ Framebuffer renderFrames(const RenderOptions& options, Device& device, KernelCac
     const Counters work = rasterizer.render(scene, asked, {.readBack = false, .countWork = true}).counters;
     for (const char* const name : {"tests", "covered", "atomics"}) run.counters[name] = work.at(name);
   }
+  measureError(run, frame.image);
+  if (options.error || isApproximate(run.variant)) {
+    progress.at(options.repeat + 1, "oracle");
+    measureAgainstOracle(run, asked, frame.image, rasterizer);
+  }
   return std::move(frame.image);
 }
 
@@ -78,6 +86,7 @@ ExitCode render(const RenderOptions& options) {
   const auto device = openDevice(options);
   const Scene scene = sceneOf(options);
   Run run = beginRun(scene, variant, *device, kernels);
+  run.attributeRange = attributeOf(options).range;
   const auto writeRow = [&] {
     if (!options.json.empty()) writeText(options.json, rowText(run) + '\n');
   };
@@ -91,7 +100,7 @@ ExitCode render(const RenderOptions& options) {
     writeRow();
     throw;
   }
-  for (const auto& output : options.outputs) writeImage(output, image);
+  for (const auto& output : options.outputs) writeImage(output, image, run.attributeRange);
   writeRow();
   fmt::print(options.json == "-" ? stderr : stdout, "{}", summary(options, run, coveredPixels(image)));
   return ExitCode::kDone;
@@ -110,15 +119,20 @@ Command addRender(CLI::App& app) {
       ->allow_extra_args(false);
   addDevice(*command, *options, false);
   addSettings(*command, *options);
+  addAttribute(*command, *options);
   addKernelFiles(*command, *options);
   addThreads(*command, *options);
   addRepeat(*command, options->repeat);
+  command->add_flag("--error", options->error,
+                    "compare the image with the oracle's; always done where an axis is approximate");
   command->add_option("--json", options->json, "write the result row (one line of JSON) to FILE, or - for stdout")
       ->type_name("FILE");
   command->footer(
       "Examples:\n"
       "  tessera render bunny.obj -o bunny.png --set shade=smooth --size 1920x1080\n"
       "  tessera render 'generate:icosphere?level=7' --device vulkan:0 --set route=glsl -o ball.exr\n"
+      "  tessera render terrain.ply --attribute z --set fill=inclusive --set sub-pixel=0 -o heights.exr -o "
+      "heights.png\n"
       "  tessera render scene.toml --threads 1 --repeat 50 --json row.json\n\n" +
       inputHelp() + "\n" + axesHelp());
   return {command, [options] { return render(*options); }};

@@ -1,0 +1,78 @@
+#include "host/cli/render-error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/cli/parity-oracle.h"
+#include "host/cli/table.h"
+
+namespace tessera::cli {
+namespace {
+
+bool approximates(const std::string& name, const std::string& value) {
+  return !axis(name).values.empty() && axisValue(name, value).kind == AxisKind::kApproximate;
+}
+
+/// `asked` without its approximate values. Shading stays what it was, where it was such a value that brought it in.
+Variant exactVariant(const Variant& asked, const Variant& resolved) {
+  Variant exact;
+  for (const auto& [name, value] : asked.values())
+    if (!approximates(name, value)) exact.set(name, value);
+  exact.set("shade", resolved.get("shade"));
+  return exact;
+}
+
+std::string oracleLine(const Run& run) {
+  const Difference& d = *run.difference;
+  std::string text = "error against the oracle, pixels: ";
+  if (run.variant.get("commit") == "count")
+    text += fmt::format("hits {}", grouped(d.hits));
+  else
+    text += fmt::format("coverage {}, ids {}, depth {} (at most {:.3g})", grouped(d.coverage), grouped(d.id),
+                        grouped(d.depth), d.depthMaxAbs);
+  if (!run.scene->attribute.empty()) text += fmt::format(", values {}", grouped(d.attribute));
+  if (isApproximate(run.variant) && !std::isnan(d.psnr))
+    text += std::isinf(d.psnr) ? "; colours equal" : fmt::format("; colours {:.2f} dB from exact ones", d.psnr);
+  return text + '\n';
+}
+
+/// What errors of the attribute are relative to: the range that was asked for, else the span of the vertices' values.
+ValueRange rangeOf(const Run& run) {
+  if (run.attributeRange) return *run.attributeRange;
+  ValueRange range{INFINITY, -INFINITY};
+  for (const float value : run.scene->attribute)
+    if (std::isfinite(value)) range = {std::min(range.least, value), std::max(range.most, value)};
+  return range;
+}
+
+std::string attributeLine(const Run& run) {
+  const reference::AttributeError& error = *run.attributeError;
+  const std::string& name = run.scene->attributeName;
+  if (error.pixels == 0) return fmt::format("attribute {}: no pixel has a value\n", name);
+  const ValueRange range = rangeOf(run);
+  const double span = std::abs(double{range.most} - range.least);
+  std::string text = fmt::format("attribute {}: error at most {:.3g}, rms {:.3g}", name, error.max, error.rms);
+  if (span > 0) text += fmt::format("; {:.3g} of the range {} to {}", error.max / span, range.least, range.most);
+  return text + '\n';
+}
+
+}  // namespace
+
+void measureAgainstOracle(Run& run, const Variant& asked, const Framebuffer& image, Rasterizer& rasterizer) {
+  Oracle oracle(*run.scene, run.variant);
+  if (!image.colour.empty() && isApproximate(run.variant))
+    oracle.holdColours(rasterizer.render(*run.scene, exactVariant(asked, run.variant)).image.colour);
+  run.difference = oracle.against(image);
+}
+
+std::string errorSummary(const Run& run) {
+  std::string text;
+  if (run.difference) text += oracleLine(run);
+  if (run.hitCountNotOne) text += fmt::format("pixels hit, but not once: {}\n", grouped(*run.hitCountNotOne));
+  if (run.attributeError) text += attributeLine(run);
+  return text;
+}
+
+}  // namespace tessera::cli

@@ -1,0 +1,18 @@
+// How far a rendered image is from right, as render measures and says it.
+#pragma once
+
+#include <string>
+
+#include "host/rasterizer.h"
+#include "host/row.h"
+
+namespace tessera::cli {
+
+/// Sets run.difference: the image against the oracle under run.variant, and its colours against those of the same scene
+/// on the same device under `asked` without its approximate values.
+void measureAgainstOracle(Run& run, const Variant& asked, const Framebuffer& image, Rasterizer& rasterizer);
+
+/// A line for each error that `run` has; "" where none was measured.
+std::string errorSummary(const Run& run);
+
+}  // namespace tessera::cli
