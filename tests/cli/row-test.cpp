@@ -37,6 +37,7 @@ TEST_CASE("A row holds what applies and leaves out what does not") {
   CHECK(bare["status"] == "unsupported");
   for (const char* const absent : {"time_ns", "error", "counters", "plan", "memory"})
     CHECK_FALSE(bare.contains(absent));
+  CHECK_FALSE(bare["scene"].contains("attribute"));
 
   run.difference = Difference{};
   run.difference->psnr = std::numeric_limits<double>::infinity();
@@ -44,12 +45,32 @@ TEST_CASE("A row holds what applies and leaves out what does not") {
   const auto full = nlohmann::json::parse(rowText(run));
   CHECK_FALSE(full["error"].contains("psnr"));
   CHECK(full["time_ns"]["median"] == 5);
+  for (const char* const absent : {"hit_count_not_one", "attribute_max", "attribute_rms"})
+    CHECK_FALSE(full["error"].contains(absent));
+}
+
+TEST_CASE("A row holds errors with an oracle and without") {
+  Scene scene;
+  scene.attribute = {1};
+  scene.attributeName = "height";
+  Run run;
+  run.scene = &scene;
+  run.hitCountNotOne = 3;
+  run.attributeError = reference::AttributeError{.max = 0.5, .rms = 0.25, .pixels = 1};
+  run.attributeRange = ValueRange{-1, 2};
+  const auto row = nlohmann::json::parse(rowText(run));
+  CHECK(row["error"] == nlohmann::json{{"hit_count_not_one", 3}, {"attribute_max", 0.5}, {"attribute_rms", 0.25}});
+  CHECK(row["scene"]["attribute"] == nlohmann::json{{"name", "height"}, {"range", {-1, 2}}});
+  run.attributeError->max = std::numeric_limits<double>::infinity();
+  CHECK_FALSE(nlohmann::json::parse(rowText(run))["error"].contains("attribute_max"));
 }
 
 TEST_CASE("Covered pixels are counted by ids or by hits") {
   Framebuffer frame{
       .width = 2, .height = 2, .depth = {}, .ids = {0, kNoTriangle, 3, kNoTriangle}, .hits = {}, .colour = {}};
   CHECK(coveredPixels(frame) == 2);
+  frame.ids[1] = kUnknownTriangle;
+  CHECK(coveredPixels(frame) == 3);
   frame.ids.clear();
   frame.hits = {0, 2, 1, 1};
   CHECK(coveredPixels(frame) == 3);

@@ -97,6 +97,36 @@ TEST_CASE("hits and colour are compared where both frames have them") {
   CHECK_FALSE(d.equal());
 }
 
+TEST_CASE("values are compared by bits and their error is of the pixels that have one in both") {
+  const float none = std::numeric_limits<float>::quiet_NaN();
+  Framebuffer a = small(), b = small();
+  a.attribute = {1, 2, 3, none, none, 0.0f};
+  b.attribute = {1, 2.5f, 2, none, 7, -0.0f};
+  const Difference d = compare(a, b);
+  CHECK(d.attribute == 4);  // one has a value on one side alone, one another sign of zero
+  CHECK(d.attributeMax == 1);
+  CHECK(d.attributeRms == Approx(std::sqrt((0.25 + 1) / 4)));
+  CHECK(d.firstX == 1);
+  CHECK_FALSE(d.equal());
+  CHECK(differencePicture(a, b)[1] != differencePicture(a, b)[0]);
+  b.attribute = a.attribute;
+  CHECK(compare(a, b).equal());
+}
+
+TEST_CASE("an unknown id is covered and agrees with any other") {
+  Framebuffer a = small(), b = small();
+  b.ids = {kUnknownTriangle, kUnknownTriangle, kUnknownTriangle, kUnknownTriangle, kNoTriangle, kUnknownTriangle};
+  const Difference d = compare(a, b);
+  CHECK(d.coverage == 2);
+  CHECK(d.id == 2);  // those two
+  CHECK(d.firstX == 1);
+  CHECK(d.firstY == 1);
+  CHECK(compare(b, a).id == 2);
+  b.ids[4] = kUnknownTriangle;
+  b.ids[5] = kNoTriangle;
+  CHECK(compare(a, b).equal());
+}
+
 TEST_CASE("frames that cannot be compared are refused") {
   Framebuffer other = small();
   other.width = 2;

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-enum Parts { kVisibility = 1, kHits = 2, kColour = 4 };
+enum Parts { kVisibility = 1, kHits = 2, kColour = 4, kAttribute = 8 };
 
 Framebuffer randomFrame(std::uint32_t width, std::uint32_t height, int parts) {
   std::mt19937 random(width * 7919 + height);
@@ -37,6 +37,9 @@ Framebuffer randomFrame(std::uint32_t width, std::uint32_t height, int parts) {
     }
     if (parts & kHits) frame.hits.push_back(static_cast<std::uint32_t>(random()));
     if (parts & kColour) frame.colour.emplace_back(unit(), unit(), unit());
+    // Any bits, those of the NaN of empty pixels and of other NaNs among them.
+    if (parts & kAttribute)
+      frame.attribute.push_back(std::bit_cast<float>(k % 4 ? static_cast<std::uint32_t>(random()) : 0x7fc00000u));
   }
   return frame;
 }
@@ -48,7 +51,7 @@ bool sameBits(const std::vector<T>& a, const std::vector<T>& b) {
 
 bool sameBits(const Framebuffer& a, const Framebuffer& b) {
   return a.width == b.width && a.height == b.height && sameBits(a.depth, b.depth) && sameBits(a.ids, b.ids) &&
-         sameBits(a.hits, b.hits) && sameBits(a.colour, b.colour);
+         sameBits(a.hits, b.hits) && sameBits(a.colour, b.colour) && sameBits(a.attribute, b.attribute);
 }
 
 std::string bytesOf(const fs::path& path) {
@@ -113,8 +116,8 @@ Png readPng(const fs::path& path) {
 TEST_CASE("an exr round trip keeps every bit") {
   const Folder folder;
   for (const auto& [width, height] : {std::pair{1u, 1u}, {3u, 200u}, {257u, 65u}, {2000u, 1u}}) {
-    for (const int parts :
-         {kVisibility + 0, kHits + 0, kVisibility | kHits, kVisibility | kColour, kVisibility | kHits | kColour}) {
+    for (const int parts : {kVisibility + 0, kHits + 0, kVisibility | kHits, kVisibility | kColour,
+                            kVisibility | kAttribute, kVisibility | kHits | kColour | kAttribute}) {
       CAPTURE(width, height, parts);
       const Framebuffer frame = randomFrame(width, height, parts);
       writeImage(folder / "a.exr", frame);
@@ -126,13 +129,13 @@ TEST_CASE("an exr round trip keeps every bit") {
 
 TEST_CASE("an exr has the documented channels and types") {
   const Folder folder;
-  writeImage(folder / "a.EXR", randomFrame(5, 4, kVisibility | kHits | kColour));
+  writeImage(folder / "a.EXR", randomFrame(5, 4, kVisibility | kHits | kColour | kAttribute));
   const auto in = OIIO::ImageInput::open((folder / "a.EXR").string());
   REQUIRE(in);
   const OIIO::ImageSpec& spec = in->spec();
   CHECK(spec.get_string_attribute("compression") == "zip");
-  CHECK(spec.nchannels == 6);
-  for (const char* name : {"R", "G", "B", "Z"})
+  CHECK(spec.nchannels == 7);
+  for (const char* name : {"R", "G", "B", "Z", "A"})
     CHECK(spec.channelformat(spec.channelindex(name)) == OIIO::TypeDesc::FLOAT);
   for (const char* name : {"id", "hits"}) CHECK(spec.channelformat(spec.channelindex(name)) == OIIO::TypeDesc::UINT32);
 }
@@ -173,6 +176,35 @@ TEST_CASE("a png of hits goes from dark to light and an empty pixel is transpare
   }
   CHECK(png.pixels[4 + 2] > png.pixels[4]);          // one hit: blue
   CHECK(png.pixels[20] > png.pixels[20 + 2] + 100);  // the most: yellow
+}
+
+TEST_CASE("a png of an attribute goes from blue to yellow over the range and an empty pixel is transparent") {
+  const Folder folder;
+  Framebuffer frame{.width = 4, .height = 1, .depth = {}, .ids = {}, .hits = {}, .colour = {}};
+  frame.depth.assign(4, 0.5f);
+  frame.attribute = {-2, 0, 2, std::numeric_limits<float>::quiet_NaN()};
+  const auto pixels = [&](const std::optional<ValueRange>& range) {
+    writeImage(folder / "a.png", frame, range);
+    const Png png = readPng(folder / "a.png");
+    REQUIRE(png.channels == 4);
+    return png.pixels;
+  };
+  const auto own = pixels({});
+  CHECK(std::vector(own.begin() + 12, own.end()) == std::vector<std::uint8_t>{0, 0, 0, 0});
+  CHECK(own[3] == 255);
+  CHECK(own[2] > own[0] + 50);    // the least: blue
+  CHECK(own[8] > own[10] + 100);  // the most: yellow
+  CHECK(own == pixels(ValueRange{-2, 2}));
+  CHECK(own != pixels(ValueRange{-2, 4}));
+  // Beyond the range: the colour of its end. Turned round: the other way.
+  const auto half = pixels(ValueRange{-2, 0}), turned = pixels(ValueRange{2, -2});
+  CHECK(std::equal(half.begin() + 4, half.begin() + 8, half.begin() + 8));
+  CHECK(std::equal(turned.begin(), turned.begin() + 4, own.begin() + 8));
+  frame.attribute = {3, 3, 3, 3};
+  CHECK(pixels({})[3] == 255);  // no span
+  frame.colour.assign(4, glm::vec3(1));
+  writeImage(folder / "a.png", frame);
+  CHECK(readPng(folder / "a.png").pixels == std::vector<std::uint8_t>(12, 255));  // shading comes first
 }
 
 TEST_CASE("a png of depth spans the depths of the frame and an empty pixel is transparent") {
