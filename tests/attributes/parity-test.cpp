@@ -36,13 +36,18 @@ void addValues(Scene& scene, std::uint64_t seed) {
 }  // namespace
 
 CHECKED_PLACE_TEST_CASE("Values of random scenes have the oracle's bits", "[attributes]") {
-  const Variant variants[] = {{}, {{"binning", "none"}}, {{"plan", "full"}}, {{"cull", "back"}}};
+  const Variant variants[] = {{},
+                              {{"binning", "none"}},
+                              {{"plan", "full"}},
+                              {{"cull", "back"}, {"wide", "two-word"}},
+                              {{"fill", "inclusive"}, {"sub-pixel", "0"}},
+                              {{"sub-pixel", "4"}, {"interpolate", "weights"}}};
   std::size_t values = 0, failures = 0;
   for (std::uint64_t seed = 0; seed < 120 && failures < 3; ++seed) {
     Scene scene = randomScene(seed);
     addValues(scene, seed);
-    const Variant& variant = variants[seed % 4];
-    INFO(scene.name << ", seed " << seed << ", " << variant.text());
+    const Variant& variant = variants[seed % std::size(variants)];
+    CAPTURE(scene.name, seed, variant.text());
     const reference::Result oracle = reference::render(scene, imageOf(variant));
     const Frame frame = machine.render(scene, variant);
     REQUIRE(frame.image.attribute.size() == frame.image.pixels());
