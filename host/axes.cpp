@@ -162,7 +162,7 @@ std::vector<Axis> rasterAxes() {
       {"commit",
        "where a covered sample goes",
        "",
-       {"clear", "raster-tiles", "raster-items", "resolve"},
+       {"clear", "payload", "raster-tiles", "raster-items", "resolve"},
        {{"tile-owned", "a group owns its tile's depth and ids and writes them back once; no atomics",
          type("Commit", "commit.tile_owned", "TileOwned"), kImplementation, kWritesTiles,
          "Laine and Karras, HPG 2011"},

@@ -85,7 +85,8 @@ KernelInterface readReflection(const std::string& text, Route route, const std::
     } else {
       fail(fmt::format("`{}` is neither a structured buffer nor the constant buffer `frame`", name));
     }
-    interface.resources[name] = place;
+    if (!interface.resources.emplace(name, place).second)
+      fail(fmt::format("two buffers are named {}: buffers are bound by name, so its modules must share one", name));
   }
   reflection.at("entryPoints").at(0).at("threadGroupSize").get_to(interface.groupSize);
   return interface;

@@ -17,7 +17,7 @@ const std::vector<Stage>& stages() {
       {"transform", "rasterizer/transform.slang", "transform"},
       {"project", "rasterizer/transform.slang", "project"},
       {"setup", "rasterizer/setup.slang", "setup"},
-      {"payload", "rasterizer/payload.slang", "payload"},
+      {"payload", "rasterizer/payload.slang", "colourTriangles"},
       {"bin-count", "rasterizer/bin-count.slang", "binCount"},
       {"scan-blocks", "rasterizer/scan.slang", "scanBlocks"},
       {"scan-add", "rasterizer/scan.slang", "scanAdd"},
