@@ -506,6 +506,7 @@ class FrameRun {
     if (listed()) keep("bin", "tile, pieces", 1, passes_.read<std::uint32_t>("tileCounts", tiles()));
     keep("raster", "pixel, depth", 1, passes_.read<std::uint32_t>("depth", pixels()));
     keep("raster", "pixel, id", 1, passes_.read<std::uint32_t>("ids", pixels()));
+    if (frame_.plan.attribute) keep("attribute", "pixel, value", 1, passes_.read<std::uint32_t>("values", pixels()));
   }
 
   Passes& passes_;
