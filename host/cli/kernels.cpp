@@ -113,6 +113,7 @@ Command addKernels(CLI::App& app) {
       ->excludes(prebuild);
   addInput(*command, *options);
   command->get_option("INPUT")->required(false);
+  addAttribute(*command, *options);
   addSettings(*command, *options);
   addDevice(*command, *options, true);
   command->footer(
