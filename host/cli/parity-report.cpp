@@ -93,11 +93,14 @@ std::string parityReport(const Scene& scene, const std::vector<Outcome>& outcome
   const char* const overall = count(Outcome::kDifferent) != 0 ? "DIFFERENT"
                               : equal == outcomes.size()      ? "equal"
                                                               : "not shown for all";
+  const bool approximate = std::ranges::any_of(outcomes, [](const auto& o) { return o.fromFirst.has_value(); });
+  const char* const to = approximate ? "first device (the variant is approximate)" : "oracle";
   return fmt::format(
       "{}: {} triangles, {} x {}; pixels that differ from the oracle:\n\n{}\n{}\n{}parity: {}; {} of {} equal to the "
-      "oracle in every bit\n",
+      "{} "
+      "in every bit\n",
       scene.name, grouped(scene.triangles.size()), scene.width, scene.height, verdictTable(outcomes),
-      timesTable(outcomes), notes(outcomes), overall, equal, outcomes.size());
+      timesTable(outcomes), notes(outcomes), overall, equal, outcomes.size(), to);
 }
 
 }  // namespace tessera::cli

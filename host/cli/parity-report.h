@@ -1,6 +1,7 @@
 // What parity found, device by device, and how it says so.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,14 +24,17 @@ struct Outcome {
 
   Attempt attempt;
   Run run;      ///< its difference is from the oracle; none when the device could not run
+  std::optional<Difference> fromFirst;  ///< of an approximate variant: from the first device that could run it
   Probe probe;  ///< of the device's arithmetic; parity is claimed only where it passed or flushes denormals
   std::uint64_t covered = 0;  ///< pixels
   ExitCode refusal{};         ///< why it could not run
   std::string note;           ///< one line on a difference or a refusal; "" when equal
 
+  /// What has to be zero: an approximate variant differs from the oracle, but not from device to device.
+  const Difference& verdictOn() const { return fromFirst ? *fromFirst : *run.difference; }
   Verdict verdict() const {
     if (!run.difference) return kRefused;
-    if (!run.difference->equal()) return kDifferent;
+    if (!verdictOn().equal()) return kDifferent;
     return probe.passed() || probe.onlyFlushes() ? kEqual : kNotClaimed;
   }
 };

@@ -41,6 +41,31 @@ TEST_CASE("An approximate variant's error is in the row and the summary and an e
   CHECK(summary.find("dB") == std::string::npos);  // nothing exact to hold its colours against but themselves
 }
 
+TEST_CASE("A commit without ids has its coverage and depth held against the oracle") {
+  Desk desk;
+  const std::string render = "render 'generate:icosphere?level=2' --size 100x75 -o a.png --json row.json --set commit=";
+  const json grey = rowOf(desk, render + "depth24+lum8")["error"],
+             colours = rowOf(desk, render + "depth32+rgba8")["error"];
+  for (const json& error : {grey, colours})
+    for (const char* const part : {"coverage_mismatch", "id_mismatch"}) CHECK(error[part] == 0);
+  CHECK(grey["depth_max_abs"] > 0);
+  CHECK(grey["depth_max_abs"] < 0x1p-23);
+  CHECK(colours["depth_max_abs"] == 0);
+  CHECK(colours["psnr"] > 50);            // bytes for floats: half of 1/255 at most
+  CHECK(grey["psnr"] < colours["psnr"]);  // and no hue
+}
+
+TEST_CASE("An approximate variant is the same on every device though not the oracle's") {
+  Desk desk;
+  const auto outcome =
+      desk.tessera("parity 'generate:icosphere?level=2' --size 100x75 --set commit=depth24+lum8 --json row.json");
+  INFO(outcome.out << outcome.err);
+  CHECK(outcome.code == 0);
+  CHECK(outcome.out.find("equal to the first device (the variant is approximate) in every bit") != std::string::npos);
+  std::istringstream rows(desk.read("row.json"));
+  for (std::string line; std::getline(rows, line);) CHECK(json::parse(line)["error"]["depth_mismatch"] > 0);
+}
+
 TEST_CASE("Hits other than one are counted under commit=count") {
   Desk desk;
   desk.write("two.obj", tessera::test::twoTriangles());

@@ -146,7 +146,7 @@ TEST_CASE("Parity names the first stage that differs and leaves a replay") {
                                     "TESSERA_SLANG_SOURCES=slang");
   INFO(outcome.out << outcome.err);
   CHECK(outcome.code == 5);
-  CHECK(outcome.out.find("parity: DIFFERENT; 1 of 3") != std::string::npos);
+  CHECK(outcome.out.find("parity: DIFFERENT; 1 of ") != std::string::npos);
   CHECK(outcome.out.find("first difference at pixel (") != std::string::npos);
   CHECK(outcome.out.find("first stage that differs: transform, vertex 0 (clip x y z w), word 0: 0x") !=
         std::string::npos);
