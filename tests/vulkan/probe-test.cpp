@@ -165,10 +165,10 @@ TEST_CASE("the probe sees two words that lose a carry or a tie") {
     const char *from, *to, *row;
   };
   for (const auto& [from, to, name] :
-       {Fault{"+ (low < a.low ? 1u : 0u)", "", "two-word-add"},
+       {Fault{"+ uint(low < a.low)", "", "two-word-add"},
         Fault{"((a0 * b1 + (t & 0xffff)) >> 16)", "((a0 * b1) >> 16)", "two-word-product"},
-        Fault{"below + (mantissa & 1) > 0x100u", "below >= 0x100u", "two-word-to-float"},
-        Fault{"a.high == b.high && a.low < b.low", "a.low < b.low", "two-word-compare"}}) {
+        Fault{"below + (mantissa & 1u) > 0x100u", "below >= 0x100u", "two-word-to-float"},
+        Fault{"(a.high == b.high) & (a.low < b.low)", "(a.low < b.low)", "two-word-compare"}}) {
     INFO(from);
     const Altered sources("wide-two-word.slang", from, to);
     const auto device = makeCpuDevice();
