@@ -41,7 +41,9 @@ CHECKED_PLACE_TEST_CASE("Values of random scenes have the oracle's bits", "[attr
                               {{"plan", "full"}},
                               {{"cull", "back"}, {"wide", "two-word"}},
                               {{"fill", "inclusive"}, {"sub-pixel", "0"}},
-                              {{"sub-pixel", "4"}, {"interpolate", "weights"}}};
+                              {{"sub-pixel", "4"}, {"interpolate", "weights"}},
+                              {{"sub-pixel", "6"}, {"interpolate", "plane"}},
+                              {{"fill", "inclusive"}, {"clip", "on"}}};
   std::size_t values = 0, failures = 0;
   for (std::uint64_t seed = 0; seed < 120 && failures < 3; ++seed) {
     Scene scene = randomScene(seed);
