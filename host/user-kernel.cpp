@@ -87,6 +87,10 @@ KernelRequest requestOf(KernelRequest own, const fs::path& file) {
     failUnsupported(fmt::format(
         "{}: GLSL reaches Vulkan devices only; the CPU device takes .slang, or .hlsl with one thread a group",
         describe(own.stage, file)));
+  for (const char* const generated : {"settings.slang", "variant.slang", "settings.glsl"})
+    if (fs::exists(file.parent_path() / generated, error))
+      failUsage(fmt::format("{}: {} beside it would hide the generated one; another name would do",
+                            describe(own.stage, file), generated));
   own.entry = language == Language::kGlsl ? "main" : entryOf(own, file, readText(file));
   own.file = file;
   return own;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <future>
 #include <regex>
 
 #include "datasets/input.h"
@@ -84,6 +85,11 @@ std::string withoutPlace(const std::string& complaint) {  // of this machine and
   return std::regex_replace(complaint, place, "");
 }
 
+/// And a note, if there is something to say.
+struct Cell {
+  std::string text, why;
+};
+
 class Table {
  public:
   std::string text() {
@@ -110,25 +116,31 @@ class Table {
       if (std::ranges::count(seen_, stage) && !wide) continue;
       seen_.push_back(stage);
       text += fmt::format("| {} | {} |", stage, kind.label);
-      for (const EmitTarget& target : emitTargets()) text += fmt::format(" {} |", cell(kind, scene, stage, target));
+      std::vector<std::future<Cell>> cells;
+      for (const EmitTarget& target : emitTargets())
+        cells.push_back(std::async(std::launch::async, [&] { return cell(kind, scene, stage, target); }));
+      for (auto& waiting : cells) {
+        const Cell made = waiting.get();
+        text += fmt::format(" {}{} |", made.text, made.why.empty() ? "" : note(made.why));
+      }
       text += '\n';
     }
     return text;
   }
 
-  std::string cell(const Kind& kind, const Scene& scene, const std::string& stage, const EmitTarget& target) {
+  Cell cell(const Kind& kind, const Scene& scene, const std::string& stage, const EmitTarget& target) {
     try {
       Variant variant = variantOf(kind);
       if (target.name == "glsl") variant.set("route", "glsl");
       const KernelRequest request = kernelRequest(stage, makePlan(scene, variant, target.device));
       const Emitted emitted = emitKernel(cache_, request, target);
-      if (!emitted.complaint.empty()) return "no" + note(withoutPlace(emitted.complaint));
+      if (!emitted.complaint.empty()) return {"no", withoutPlace(emitted.complaint)};
       const std::string said = judge(cache_, request, target, emitted.bytes);
-      if (!said.empty()) return "not valid" + note(said);
+      if (!said.empty()) return {"not valid", said};
       const bool judged = target.name != "hlsl" && target.name != "metal" && target.name != "cuda";
-      return judged ? "valid" : "written";
+      return {judged ? "valid" : "written", ""};
     } catch (const Error& error) {
-      return "no" + note(error.what());
+      return {"no", error.what()};
     }
   }
 

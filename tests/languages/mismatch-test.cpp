@@ -99,6 +99,11 @@ TEST_CASE("Files that are not kernels and stages that do not run are refused") {
   const Bench bench;
   CHECK(contains(complaintOf("shade", bench.folder.path() / "none.slang"), "no such file"));
   CHECK(contains(complaintOf("shade", bench.write("shade.metal", "")), ".slang, .hlsl, .comp or .glsl"));
+  for (const char* const name : {"settings.slang", "variant.slang", "settings.glsl"}) {
+    const Bench shadowed;
+    shadowed.write(name, "");
+    CHECK(contains(complaintOf("shade", shadowed.edited("by-row.hlsl", {})), std::string(name) + " beside it"));
+  }
   const std::string line = complaintOf("project", example("transform.comp"));
   CHECK(contains(line, "does not run"));
   CHECK(contains(line, "transform, setup"));

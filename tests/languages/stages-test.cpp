@@ -70,6 +70,17 @@ TEST_CASE("Shade in HLSL paints what it says") {
   }
 }
 
+TEST_CASE("HLSL imports the modules of the stage") {
+  const Bench bench;
+  const auto file =
+      bench.edited("by-row.hlsl", {{"struct Frame { uint width, rowBegin, rowEnd; };\nConstantBuffer<Frame> frame;",
+                                    "import layout;\nimport settings;"},
+                                   {"empty ? 1.0f : 0.0f", "kShade == kShadeId ? 0.25f : 0.5f"}});
+  Machine machine = machineWith("spirv", {{"shade", file}});
+  CHECK(machine.render(smallScene(), {{"shade", "id"}}).image.colour[0] == glm::vec3(0, 0, 0.25f));
+  CHECK(machine.render(smallScene(), {{"shade", "flat"}}).image.colour[0] == glm::vec3(0, 0, 0.5f));
+}
+
 TEST_CASE("Shade in Slang reads a buffer that the stage does not and runs on both machines") {
   for (const char* route : {"cpp", "spirv", "glsl"}) {
     Machine machine = machineWith(route, {{"shade", example("by-depth.slang")}});
