@@ -79,7 +79,7 @@ CHECKED_PLACE_TEST_CASE("Indices out of range are dropped and counted", "[extrem
   }
 }
 
-CHECKED_PLACE_TEST_CASE("Vertices that are not finite are dropped and counted", "[extremes]") {
+CHECKED_PLACE_AND_SWIFTSHADER_TEST_CASE("Vertices that are not finite are dropped and counted", "[extremes]") {
   std::vector<std::array<glm::vec4, 3>> bad;
   for (const float value : {kNaN, kInfinity, -kInfinity})
     for (int corner = 0; corner < 3; ++corner)
@@ -91,7 +91,7 @@ CHECKED_PLACE_TEST_CASE("Vertices that are not finite are dropped and counted", 
   checkDropped(machine, bad, "nonFinite");
 }
 
-CHECKED_PLACE_TEST_CASE("Triangles without area are dropped and counted", "[extremes]") {
+CHECKED_PLACE_AND_SWIFTSHADER_TEST_CASE("Triangles without area are dropped and counted", "[extremes]") {
   const glm::vec4 a(-0.9f, -0.8f, 0, 1), b(0.9f, 0.8f, 0, 1), middle(0, 0, 0, 1), near(-0.9f + 1e-6f, -0.8f, 0, 1);
   checkDropped(machine,
                {{a, middle, b},

@@ -39,6 +39,7 @@ class Machine {
   Machine(std::string name, std::string route, std::unique_ptr<Device> device, KernelCache::Options options = {});
 
   const std::string& name() const { return name_; }
+  bool isSwiftShader() const { return name_ == SwiftShader::kName; }  ///< for tests to take on less there
   Device& device() { return *device_; }
   const DeviceInfo& info() const { return device_->info(); }
   KernelCache& kernels() { return kernels_; }
@@ -83,7 +84,10 @@ Machine* machineAt() {
 #define CHECKED_PLACE_TEST_CASE(title, tags)                                                            \
   PLACE_TEST_CASE_AT(INTERNAL_CATCH_UNIQUE_NAME(runAt), title, tags, tessera::Cpu, tessera::CheckedCpu, \
                      tessera::VulkanSpirv, tessera::VulkanGlsl)
-/// The same as PLACE_TEST_CASE, and on SwiftShader: tens of times slower than the CPU device, so for what is small.
+/// The same as these two, and on SwiftShader: tens of times slower than the CPU device, so for what is small.
 #define PLACE_AND_SWIFTSHADER_TEST_CASE(title, tags)                                                     \
   PLACE_TEST_CASE_AT(INTERNAL_CATCH_UNIQUE_NAME(runAt), title, tags, tessera::Cpu, tessera::VulkanSpirv, \
                      tessera::VulkanGlsl, tessera::SwiftShader)
+#define CHECKED_PLACE_AND_SWIFTSHADER_TEST_CASE(title, tags)                                            \
+  PLACE_TEST_CASE_AT(INTERNAL_CATCH_UNIQUE_NAME(runAt), title, tags, tessera::Cpu, tessera::CheckedCpu, \
+                     tessera::VulkanSpirv, tessera::VulkanGlsl, tessera::SwiftShader)
