@@ -1,0 +1,62 @@
+// What is planned for a device without 64-bit types asks for none: no stage's SPIR-V declares one.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <set>
+
+#include "host/error.h"
+#include "host/kernel-cache.h"
+#include "host/spirv.h"
+#include "host/stages.h"
+
+using namespace tessera;
+
+namespace {
+
+constexpr std::uint32_t kOpCapability = 17;
+const std::set<std::uint32_t> kWideCapabilities{10, 11, 12};  // Float64, Int64, Int64Atomics
+
+DeviceInfo device32() {
+  DeviceInfo device;
+  device.api = "vulkan";
+  device.name = "a 32-bit device";
+  device.int64 = device.float64 = device.atomicMin64 = false;
+  return device;
+}
+
+bool isWide(const CompiledKernel& kernel) {
+  const std::vector<std::uint32_t> words = readSpirv(kernel.binary);
+  return std::ranges::any_of(spirvInstructions(words), [](const SpirvInstruction& i) {
+    return i.op == kOpCapability && kWideCapabilities.contains(i.operands[0]);
+  });
+}
+
+}  // namespace
+
+TEST_CASE("No stage for a device without 64-bit types declares one") {
+  KernelCache kernels;
+  for (const char* route : {"spirv", "glsl"})
+    for (Variant variant : {Variant{{"plan", "full"}}, Variant{{"binning", "none"}}, Variant{{"edge", "int64"}}}) {
+      variant.set("route", route);
+      const Plan plan = makePlan(Scene{}, variant, device32());
+      CHECK(plan.resolved.get("wide") == "two-word");
+      for (const std::string& stage : stagesOf(plan)) {
+        INFO(stage << ", " << variant.text());
+        CHECK(!isWide(kernels.get(kernelRequest(stage, plan))));
+      }
+    }
+}
+
+TEST_CASE("Native 64-bit integers are declared by the stage and refused without them") {
+  KernelCache kernels;
+  DeviceInfo device = device32();
+  device.int64 = true;
+  CHECK(isWide(kernels.get(kernelRequest("setup", makePlan(Scene{}, {}, device)))));
+  try {
+    makePlan(Scene{}, {{"wide", "native"}}, device32());
+    FAIL("no refusal");
+  } catch (const Error& error) {
+    CHECK(error.code() == ExitCode::kUnsupported);
+    CHECK_THAT(error.what(),
+               Catch::Contains("wide=native") && Catch::Contains("64-bit integers") && Catch::Contains("two-word"));
+  }
+}
