@@ -10,6 +10,7 @@ struct CounterDoc {
   std::string name;     ///< lowerCamelCase; kernels know it as kCount + UpperCamelCase
   std::string meaning;  ///< one line
   bool inKernels;       ///< counted by kernels; else by the host
+  bool work = false;    ///< only under counters=work
 };
 
 /// In pipeline order; the kernels' ones first, the index of each is its index in the counter buffer.

@@ -411,8 +411,7 @@ class FrameRun {
   void countBatch(bool all) {
     const auto words = readCounters();
     for (const CounterDoc& doc : counterDocs()) {
-      const bool work = doc.name == "tests" || doc.name == "covered" || doc.name == "atomics" || doc.name == "visited";
-      if (!doc.inKernels || !(all || work)) continue;
+      if (!doc.inKernels || !(all || doc.work)) continue;
       auto& sum = counted_[doc.name];
       const std::uint64_t value = count(words, doc.name);
       sum = doc.name == "largestBin" ? std::max(sum, value) : sum + value;

@@ -66,7 +66,8 @@ Framebuffer renderFrames(const RenderOptions& options, Device& device, KernelCac
   run.peakBufferBytes = device.peakBufferBytes();
   if (countWork) {
     const Counters work = rasterizer.render(scene, asked, {.readBack = false, .countWork = true}).counters;
-    for (const char* const name : {"tests", "covered", "atomics"}) run.counters[name] = work.at(name);
+    for (const CounterDoc& doc : counterDocs())
+      if (doc.work) run.counters[doc.name] = work.at(doc.name);
   }
   measureError(run, frame.image);
   if (options.error || isApproximate(run.variant)) {

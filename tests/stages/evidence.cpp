@@ -1,4 +1,4 @@
-#include "evidence.h"
+#include "evidence-scenes.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -11,35 +11,7 @@
 namespace tessera {
 namespace {
 
-/// The sphere fills 300 x 300 pixels; some of its triangles lie between samples.
-Scene sphere() { return loadInput("generate:icosphere?level=5", 300, 300); }
-/// A large triangle with w from 1 to 4, reaching behind the near plane.
-Scene crossing() {
-  Scene scene;
-  scene.width = scene.height = 128;
-  scene.clip = {{-1, -1, 0.5f, 1}, {4, -4, 2, 4}, {0, 2, -0.5f, 2}};
-  scene.triangles = {{0, 1, 2}};
-  return scene;
-}
-
-Frame on(const Scene& scene, const Variant& variant) {
-  return machineAt<Cpu>()->render(scene, variant, {.countWork = variant.get("counters") == ""});
-}
-std::uint64_t count(const Frame& frame, const char* counter) { return frame.counters.at(counter); }
-bool ran(const Frame& frame, const std::string& stage) {
-  return std::ranges::any_of(frame.times.stages, [&](const auto& s) { return s.first == stage; });
-}
-std::string refusal(const Scene& scene, const Variant& variant, ExitCode code) {
-  try {
-    on(scene, variant);
-  } catch (const Error& error) {
-    CHECK(error.code() == code);
-    return error.what();
-  }
-  return "";
-}
-
-const std::map<std::string, std::map<std::string, std::function<void()>>> kEvidence{
+const Evidence kEvidence{
     {"route",
      {{"cpp", [] { CHECK(machineAt<Cpu>()->render(sphere()).plan.resolved.get("route") == "cpp"); }},
       {"spirv",
@@ -84,6 +56,28 @@ const std::map<std::string, std::map<std::string, std::function<void()>>> kEvide
        [] {
          CHECK(refusal(crossing(), {{"projection", "orthographic"}}, ExitCode::kUsage) != "");
        }}}},
+    {"sub-pixel",
+     {{"0",
+       [] {
+         for (const int x : corners({{"sub-pixel", "0"}})) CHECK((x - 128) % 256 == 0);
+       }},
+      {"4", [] { CHECK(finestBit(corners({{"sub-pixel", "4"}})) == 16); }},
+      {"6", [] { CHECK(finestBit(corners({{"sub-pixel", "6"}})) == 4); }},
+      {"8", [] { CHECK(finestBit(corners({{"sub-pixel", "8"}})) == 1); }}}},
+    {"fill",
+     // A square of two triangles whose corners are samples: 11 x 11 samples lie in it or on its outline.
+     {{"top-left",
+       [] {
+         const auto hits = on(sampleSquare(), {{"fill", "top-left"}, {"commit", "count"}}).image.hits;
+         CHECK(std::ranges::count(hits, 1u) == 100);
+         CHECK(std::ranges::count(hits, 0u) == 1024 - 100);
+       }},
+      {"inclusive",
+       [] {
+         const auto hits = on(sampleSquare(), {{"fill", "inclusive"}, {"commit", "count"}}).image.hits;
+         CHECK(std::ranges::count(hits, 2u) == 11);  // the diagonal
+         CHECK(std::ranges::count(hits, 1u) == 110);
+       }}}},
     {"cull",
      {{"none",
        [] {
@@ -117,6 +111,20 @@ const std::map<std::string, std::map<std::string, std::function<void()>>> kEvide
        [] {
          CHECK(ran(on(sphere(), {{"binning", "none"}}), "raster-items"));
        }},
+      {"aabb-scan",
+       [] {
+         const Frame frame = on(sphere(), {{"binning", "aabb-scan"}, {"tile", "64"}});
+         CHECK(!ran(frame, "bin-insert"));
+         CHECK(count(frame, "visited") == 25 * count(frame, "submitted"));  // each of 5 x 5 tiles sees them all
+       }},
+      {"bitmask",
+       [] {
+         const Frame frame = on(sphere(), {{"binning", "bitmask"}});
+         CHECK(ran(frame, "bin-insert"));
+         CHECK(!ran(frame, "scan-blocks"));
+         CHECK(count(frame, "visited") == count(on(sphere(), {{"binning", "exact"}}), "binned"));
+         CHECK(count(frame, "binned") == 0);
+       }},
       {"queue",
        [] {
          const Frame frame = on(sphere(), {{"binning", "queue"}, {"capacity", "65536"}});
@@ -148,6 +156,20 @@ const std::map<std::string, std::map<std::string, std::function<void()>>> kEvide
        [] {
          CHECK(count(on(sphere(), {{"tile", "64"}}), "largestBin") >
                count(on(sphere(), {{"tile", "32"}}), "largestBin"));
+       }}}},
+    {"tile-test",
+     {{"edges",
+       [] {
+         CHECK(count(on(crossing(), {{"tile-test", "edges"}, {"tile", "8"}}), "binned") <
+               count(on(crossing(), {{"tile-test", "box"}, {"tile", "8"}}), "binned"));
+       }},
+      {"box",
+       [] {
+         Scene diagonal;  // its box is 128 x 128, all tiles of which it goes to
+         diagonal.width = diagonal.height = 128;
+         diagonal.clip = {{-1, -1, 0.5f, 1}, {1, 1, 0.5f, 1}, {0.98f, 1, 0.5f, 1}};
+         diagonal.triangles = {{0, 1, 2}};
+         CHECK(count(on(diagonal, {{"tile-test", "box"}, {"tile", "8"}}), "binned") == 256);
        }}}},
     {"capacity",
      {{"least",
@@ -183,96 +205,16 @@ const std::map<std::string, std::map<std::string, std::function<void()>>> kEvide
          CHECK(count(frame, "overflowed") + count(frame, "binned") ==
                count(on(sphere(), {{"binning", "exact"}}), "binned"));
        }}}},
-    {"commit",
-     {{"tile-owned",
-       [] {
-         CHECK(count(on(sphere(), {{"commit", "tile-owned"}}), "atomics") == 0);
-       }},
-      {"depth32+id32",
-       [] {
-         const Frame frame = on(sphere(), {{"commit", "depth32+id32"}});
-         CHECK(count(frame, "atomics") == count(frame, "covered"));
-         CHECK(ran(frame, "resolve"));
-       }},
-      {"two-pass",
-       [] {
-         // One for each sample in the depth pass, and one for each that is in sight in the id pass.
-         const Frame frame = on(sphere(), {{"commit", "two-pass"}});
-         CHECK(count(frame, "atomics") > count(frame, "covered"));
-         CHECK(count(frame, "atomics") < 2 * count(frame, "covered"));
-         CHECK(!ran(frame, "resolve"));
-       }},
-      {"count",
-       [] {
-         const Frame frame = on(sphere(), {{"commit", "count"}});
-         CHECK(frame.image.ids.empty());
-         CHECK(frame.image.hits == reference::render(sphere()).image.hits);
-       }}}},
-    {"traversal",
-     {{"pixel",
-       [] {
-         CHECK(count(on(sphere(), {{"traversal", "pixel"}}), "tests") > 2 * count(on(sphere(), {}), "covered"));
-       }},
-      {"cell-reject",
-       [] {
-         CHECK(count(on(sphere(), {{"traversal", "cell-reject"}}), "tests") <
-               count(on(sphere(), {{"traversal", "pixel"}}), "tests"));
-       }}}},
-    {"edge",
-     // 32 bits hold a triangle up to 30,000 / 256 pixels; both images are right on either side of it, and so are those
-     // beyond.
-     {{"int32",
-       [] {
-         for (const float side : {100.0f, 30000.0f / 256, 30001.0f / 256, 500.0f}) {
-           Scene scene;
-           scene.width = scene.height = 512;
-           for (const auto& [x, y] : {std::pair{3.0f, 5.0f}, {3.0f + side, 7.0f}, {9.0f, 5.0f + side}})
-             scene.clip.emplace_back(x / 256 - 1, y / 256 - 1, 0.5f, 1.0f);
-           scene.triangles = {{0, 1, 2}};
-           CHECK(difference(on(scene, {{"edge", "int32"}}), reference::render(scene)) == "");
-         }
-       }},
-      {"int64",
-       [] {
-         CHECK(difference(on(sphere(), {{"edge", "int64"}}), reference::render(sphere())) == "");
-       }}}},
-    {"counters",
-     {{"basic",
-       [] {
-         CHECK(count(on(sphere(), {{"counters", "basic"}}), "tests") == 0);
-       }},
-      {"work",
-       [] {
-         const Frame frame = on(sphere(), {{"counters", "work"}});
-         CHECK(count(frame, "tests") > 0);
-         CHECK(count(frame, "covered") == reference::render(sphere()).counts.covered);
-       }}}},
-    {"shade",
-     {{"none",
-       [] {
-         CHECK(on(sphere(), {{"shade", "none"}}).image.colour.empty());
-       }},
-      {"id",
-       [] {
-         CHECK(on(sphere(), {{"shade", "id"}}).image.colour != on(sphere(), {{"shade", "flat"}}).image.colour);
-       }},
-      {"flat",
-       [] {
-         CHECK(on(sphere(), {{"shade", "flat"}}).image.colour != on(sphere(), {{"shade", "smooth"}}).image.colour);
-       }},
-      {"smooth",
-       [] {
-         CHECK(on(sphere(), {{"shade", "smooth"}}).image.colour.size() == 300 * 300);
-       }}}},
 };
 
 }  // namespace
 
 const std::function<void()>& evidence(const std::string& axis, const std::string& value) {
-  INFO(axis << "=" << value << " needs an entry in kEvidence of evidence.cpp");
-  REQUIRE(kEvidence.contains(axis));
-  REQUIRE(kEvidence.at(axis).contains(value));
-  return kEvidence.at(axis).at(value);
+  INFO(axis << "=" << value << " needs an entry in evidence.cpp or evidence-raster.cpp");
+  const Evidence& of = kEvidence.contains(axis) ? kEvidence : rasterEvidence();
+  REQUIRE(of.contains(axis));
+  REQUIRE(of.at(axis).contains(value));
+  return of.at(axis).at(value);
 }
 
 }  // namespace tessera

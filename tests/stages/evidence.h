@@ -2,12 +2,19 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <string>
 
 namespace tessera {
 
+/// By axis, by value.
+using Evidence = std::map<std::string, std::map<std::string, std::function<void()>>>;
+
 /// Checks that run frames with it. Of an axis of integers the values are "least" and "most". The test fails where there
 /// is none: a new axis or value has to bring its own.
 const std::function<void()>& evidence(const std::string& axis, const std::string& value);
+
+/// Of the axes that raster and later stages read; evidence.cpp has the others.
+const Evidence& rasterEvidence();
 
 }  // namespace tessera

@@ -8,18 +8,6 @@
 namespace tessera {
 namespace {
 
-/// An axis that only matters under a value of another one.
-struct Condition {
-  const char *axis, *on, *value;
-};
-constexpr Condition kConditions[] = {{"capacity", "binning", "queue"}, {"overflow", "binning", "queue"}};
-
-bool isRead(const std::string& axis, const Variant& variant) {
-  if (axis == "tile" && variant.get("binning") == "none") return false;
-  return std::ranges::all_of(kConditions,
-                             [&](const Condition& c) { return axis != c.axis || variant.get(c.on) == c.value; });
-}
-
 /// What the planner makes of a variant on an empty scene; "" where it refuses it.
 std::string resolved(const Variant& variant, const DeviceInfo& device) {
   try {
@@ -27,6 +15,31 @@ std::string resolved(const Variant& variant, const DeviceInfo& device) {
   } catch (const Error&) {
     return "";
   }
+}
+
+using Pair = std::pair<std::string, std::string>;  // two "axis=value", the earlier axis first
+
+/// Pairs of `variant` that are in `wanted`.
+std::vector<Pair> pairsIn(const Variant& variant, const std::vector<std::string>& names, const std::set<Pair>& wanted) {
+  std::vector<Pair> found;
+  for (std::size_t a = 0; a < names.size(); ++a)
+    for (std::size_t b = a + 1; b < names.size(); ++b) {
+      const Pair pair{names[a] + "=" + variant.get(names[a]), names[b] + "=" + variant.get(names[b])};
+      if (wanted.contains(pair)) found.push_back(pair);
+    }
+  return found;
+}
+
+std::set<Pair> acceptedPairs(const std::vector<std::string>& names, const DeviceInfo& device) {
+  std::set<Pair> pairs;
+  for (std::size_t a = 0; a < names.size(); ++a)
+    for (std::size_t b = a + 1; b < names.size(); ++b)
+      for (const std::string& first : losslessValues(axis(names[a])))
+        for (const std::string& second : losslessValues(axis(names[b])))
+          if (!first.empty() && !second.empty() &&
+              isAccepted({{names[a], first}, {names[b], second}}, device))
+            pairs.emplace(names[a] + "=" + first, names[b] + "=" + second);
+  return pairs;
 }
 
 }  // namespace
@@ -51,30 +64,50 @@ std::vector<std::string> implementationAxes() {
   return names;
 }
 
+bool isAccepted(const Variant& variant, const DeviceInfo& device) { return !resolved(variant, device).empty(); }
+
 std::vector<Variant> combinations(const std::vector<std::string>& names, const DeviceInfo& device) {
   std::vector<Variant> all{Variant{}};
   for (const std::string& name : names) {
     std::vector<Variant> next;
-    for (const Variant& variant : all)
-      for (const std::string& value :
-           isRead(name, variant) ? losslessValues(axis(name)) : std::vector<std::string>{""}) {
-        next.push_back(variant);
-        if (!value.empty()) next.back().set(name, value);
+    for (const Variant& variant : all) {
+      const std::size_t before = next.size();
+      for (const std::string& value : losslessValues(axis(name))) {
+        const Variant more = value.empty() ? variant : joined(variant, {{name, value}});
+        if (isAccepted(more, device)) next.push_back(more);
       }
+      if (next.size() == before) next.push_back(variant);
+    }
     all = std::move(next);
   }
-  std::erase_if(all, [&](const Variant& v) { return resolved(v, device).empty(); });
   return all;
 }
 
 std::vector<Variant> rasterPaths(const DeviceInfo& device) {
-  std::vector<std::string> names;
-  for (const std::string& name : implementationAxes()) {
-    const auto& stages = axis(name).stages;
-    const bool raster = std::ranges::any_of(stages, [](const std::string& s) { return s.starts_with("raster"); });
-    if (raster || name == "binning") names.push_back(name);
+  const std::vector<std::string> names = implementationAxes();
+  std::set<Pair> wanted = acceptedPairs(names, device);
+  std::vector<Variant> paths;
+  while (!wanted.empty()) {
+    // A pair that is not covered yet, then for each other axis the value that covers most with what there is.
+    Variant path;
+    path.set(wanted.begin()->first);
+    path.set(wanted.begin()->second);
+    for (const std::string& name : names) {
+      if (path.has(name)) continue;
+      std::size_t most = 0;
+      Variant best = path;
+      for (const std::string& value : losslessValues(axis(name))) {
+        if (value.empty()) continue;
+        const Variant more = joined(path, {{name, value}});
+        const std::size_t covered = pairsIn(more, names, wanted).size();
+        if ((covered > most || !best.has(name)) && isAccepted(more, device)) best = more, most = covered;
+      }
+      path = best;
+    }
+    for (const Pair& pair : pairsIn(path, names, wanted)) wanted.erase(pair);
+    paths.push_back(path);
   }
-  return combinations(names, device);
+  return paths;
 }
 
 std::vector<Variant> eachAlone(const Variant& base, const DeviceInfo& device) {
@@ -83,13 +116,10 @@ std::vector<Variant> eachAlone(const Variant& base, const DeviceInfo& device) {
   const auto add = [&](const Variant& variant) {
     if (seen.insert(resolved(variant, device)).second) all.push_back(variant);
   };
-  for (const Variant& binning : combinations({"binning"}, device)) {
-    const Variant path = joined(base, binning);
-    add(path);
-    for (const std::string& name : implementationAxes())
-      for (const std::string& value : losslessValues(axis(name)))
-        if (!path.has(name) && isRead(name, binning) && !value.empty()) add(joined(path, {{name, value}}));
-  }
+  add(base);
+  for (const std::string& name : implementationAxes())
+    for (const std::string& value : losslessValues(axis(name)))
+      if (!base.has(name) && !value.empty()) add(joined(base, {{name, value}}));
   return all;
 }
 

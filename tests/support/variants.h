@@ -16,13 +16,15 @@ std::vector<std::string> losslessValues(const Axis& axis);
 /// set (clip, projection), the one that the machine sets (route), and the one that chooses what comes back, not how it
 /// is made (counters).
 std::vector<std::string> implementationAxes();
+/// Whether the planner takes it for an empty scene on this device.
+bool isAccepted(const Variant& variant, const DeviceInfo& device);
 /// Every combination of lossless values of these axes that the planner accepts on this device, an axis that a
 /// combination does not read (tile without bins, capacity without queues) being left unset.
 std::vector<Variant> combinations(const std::vector<std::string>& axes, const DeviceInfo& device);
-/// The paths of a sample to the frame: combinations of the axes that raster's kernels and the bins depend on.
+/// A covering design of strength two: variants of all implementation axes such that every pair of lossless values that
+/// the planner accepts together is in one of them at least.
 std::vector<Variant> rasterPaths(const DeviceInfo& device);
-/// A few of them, on top of `base`: for each value of `binning` the plan's choice for the others, then each other value
-/// of each of them alone.
+/// On top of `base`: the plan's choice, then each lossless value of each axis alone.
 std::vector<Variant> eachAlone(const Variant& base, const DeviceInfo& device);
 /// The settings of `more` on top of those of `variant`.
 Variant joined(Variant variant, const Variant& more);
