@@ -81,6 +81,8 @@ ExitCode emit(const KernelsOptions& options) {
 }
 
 ExitCode runKernels(const KernelsOptions& options) {
+  if (options.input.empty() && !(options.size.empty() && options.attribute.empty()))
+    failUsage("kernels: --size and --attribute are for an INPUT, and none is named");
   if (!options.emit.empty()) return emit(options);
   if (!options.prebuild) failUsage("kernels: nothing to do; --prebuild or --emit TARGET DIR is needed");
   if (!options.input.empty() || !options.settings.empty())
@@ -102,13 +104,15 @@ ExitCode runKernels(const KernelsOptions& options) {
 
 Command addKernels(CLI::App& app) {
   auto options = std::make_shared<KernelsOptions>();
-  auto* const command = app.add_subcommand("kernels", "compile kernels ahead of their first use");
+  auto* const command = app.add_subcommand("kernels", "compile kernels ahead of their first use, or write them for other machines");
   auto* const prebuild =
       command->add_flag("--prebuild", options->prebuild, "compile those of the default variants into the kernel cache");
   command
       ->add_option("--emit", options->emit,
                    "write each stage of a variant into DIR, as spirv, glsl, hlsl, wgsl, metal, cuda or cpp")
-      ->expected(2)
+      ->type_size(2)
+      ->expected(1)
+      ->allow_extra_args(false)
       ->type_name("TARGET DIR")
       ->excludes(prebuild);
   addInput(*command, *options);
@@ -116,6 +120,7 @@ Command addKernels(CLI::App& app) {
   addAttribute(*command, *options);
   addSettings(*command, *options);
   addDevice(*command, *options, true);
+  command->get_option("--device")->excludes(command->get_option("--emit"));
   command->footer(
       "--emit writes the stages that the plan runs: of INPUT, else of a small scene with clipping and shading.\n"
       "That a file is written does not make it valid: host/languages.md says what was judged, and by which compiler.\n"

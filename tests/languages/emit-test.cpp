@@ -41,6 +41,17 @@ TEST_CASE("Every stage of a variant is written for every target") {
   }
 }
 
+TEST_CASE("The stages are those that the input needs") {
+  Desk desk;
+  desk.write("two.obj", twoTriangles());
+  REQUIRE(desk.tessera("kernels --emit hlsl plain two.obj").code == 0);
+  REQUIRE(desk.tessera("kernels --emit hlsl more two.obj --attribute x --set shade=flat").code == 0);
+  for (const std::string stage : {"shade.hlsl", "attribute.hlsl"}) {
+    CHECK_FALSE(std::filesystem::exists(desk.path() / "plain" / stage));
+    CHECK(std::filesystem::exists(desk.path() / "more" / stage));
+  }
+}
+
 TEST_CASE("Files that stand in the folder already stay unless they are a stage's") {
   Desk desk;
   desk.write("notes.txt", "mine");
@@ -60,6 +71,9 @@ TEST_CASE("What cannot be written is said and told by the exit code") {
       {"--emit spirv out --prebuild", 2, "--prebuild"},
       {"--emit spirv out --set tile=7", 2, "tile"},
       {"--emit wgsl out --set wide=native", 4, "WGSL"},
+      {"--emit spirv out --device cpu", 2, "--device"},
+      {"--emit spirv out --size 64x64", 2, "INPUT"},
+      {"--emit spirv out --attribute z", 2, "INPUT"},
       {"--prebuild --set tile=8", 2, "--emit"}};
   for (const auto& [arguments, code, named] : mistakes) {
     const auto outcome = desk.tessera("kernels " + arguments);
