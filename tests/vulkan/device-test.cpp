@@ -1,4 +1,5 @@
 // The promises of host/device.h on a Vulkan device, with memory mapped and copied, validation layer on.
+#include <algorithm>
 #include <array>
 #include <catch2/catch.hpp>
 #include <cctype>
@@ -297,5 +298,27 @@ TEST_CASE("lavapipe says what it is") {
     CHECK(device->info().maxLoopIterations == 65535);
     CHECK(device->info().timeClock == "timestamp");
     CHECK(device->info().maxBufferBytes >= 128u << 20);
+  }
+}
+
+TEST_CASE("SwiftShader is there without being asked for and chosen only by name") {
+  const auto adapters = listVulkanAdapters();
+  const auto isSwiftShader = [](const VulkanAdapter& a) { return a.name.find("SwiftShader") != std::string::npos; };
+  REQUIRE(std::count_if(adapters.begin(), adapters.end(), isSwiftShader) == 1);
+  CHECK(isSwiftShader(adapters.back()));
+  CHECK(makeVulkanDevice({})->info().name.find("SwiftShader") == std::string::npos);
+  VulkanOptions options;
+  options.select = "swiftshader";
+  const auto device = makeVulkanDevice(options);
+  CHECK(device->info().correctnessOnly);
+  CHECK(!device->info().int64);
+  CHECK(!device->info().float64);
+  CHECK(!device->info().atomicMin64);
+  try {
+    device->createKernel(
+        kernels().get({"atomicMinWide", "device-kernels.slang", "atomicMinWide", Route::kSpirv, {}, ""}));
+    FAIL("64-bit atomics on SwiftShader");
+  } catch (const Error& error) {
+    CHECK(error.code() == ExitCode::kUnsupported);
   }
 }
