@@ -74,9 +74,7 @@ PLACE_AND_SWIFTSHADER_TEST_CASE("Random scenes have the oracle's bits under all 
     Random random(seed);
     for (std::size_t i = 0; i < variantsOfScene(machine) && failures < 3; ++i, ++next) {
       // From end to end of the list, also where there are fewer frames than paths: 10007 is prime.
-      Variant path = paths[next * 10007 % paths.size()];
-      // SwiftShader's compiler takes minutes over the kernel that has both arithmetics at each of its seven searches.
-      if (machine.isSwiftShader() && path.get("traversal") == "scanline") path.set("edge", "int64");
+      const Variant& path = paths[next * 10007 % paths.size()];
       const Variant variant = drawOthers(machine, scene, joined(path, image), random);
       INFO(scene.name << ", " << scene.width << " x " << scene.height << ", " << variant.text());
       const std::string different = difference(machine.render(scene, variant), oracle);

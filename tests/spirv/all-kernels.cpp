@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <functional>
 #include <glm/vec2.hpp>
-#include <map>
+#include <iterator>
+#include <optional>
 #include <set>
 #include <sstream>
 
@@ -14,19 +14,17 @@
 #include "host/spirv.h"
 #include "host/subprocess.h"
 #include "host/vulkan/spirv-module.h"
+#include "tests/support/covering.h"
 
 namespace tessera::test {
 namespace {
 
-using Visit = std::function<void(const Variant&)>;
-
-/// Every combination of the values of `names`.
-void forEachVariant(const std::vector<std::string>& names, std::size_t at, Variant& chosen, const Visit& visit) {
-  if (at == names.size()) return visit(chosen);
-  for (const AxisValue& value : axis(names[at]).values) {
-    chosen.set(names[at], value.name);
-    forEachVariant(names, at + 1, chosen, visit);
-  }
+/// What a stage needs to be dispatched at all, beside the axes that it reads.
+Variant settingFor(const std::string& stage) {
+  Variant setting{{"plan", "full"}};
+  if (stage == "raster-items") setting.set("binning", "none");
+  if (stage == "bin-count" || stage.starts_with("scan")) setting.set("binning", "exact");
+  return setting;
 }
 
 }  // namespace
@@ -46,35 +44,34 @@ Scene simpleScene(bool objectSpace) {
   return scene;
 }
 
-std::vector<KernelRequest> kernelsOf(const Stage& stage, Route route) {
+std::vector<KernelRequest> kernelsOf(const Stage& stage, Route route, std::size_t strength) {
   DeviceInfo device;
   device.api = route == Route::kCpp ? "cpu" : "vulkan";
-  Variant chosen;
-  if (route == Route::kGlsl) chosen.set("route", "glsl");
-  // What the stage reads makes its kernels; the others decide whether it runs at all.
-  std::vector<std::string> names{"plan", "binning", "commit"};
-  if (stage.name == "shade") names.push_back("shade");
+  Scene scene = simpleScene(stage.name != "project");
+  if (stage.name == "attribute") scene.attribute.assign(scene.vertexCount(), 1.0f);
+  Variant base = settingFor(stage.name);
+  if (route == Route::kGlsl) base.set("route", "glsl");
+  std::vector<AxisValues> axesRead;
   for (const Axis& a : axes())
-    if (std::ranges::count(a.stages, stage.name) && !std::ranges::count(names, a.name)) names.push_back(a.name);
-
-  std::map<std::string, KernelRequest> found;
-  std::vector<std::string> order;
-  for (const bool objectSpace : {true, false}) {
-    Scene scene = simpleScene(objectSpace);
-    if (stage.name == "attribute") scene.attribute.assign(scene.vertexCount(), 1.0f);
-    forEachVariant(names, 0, chosen, [&](const Variant& variant) {
-      try {
-        const Plan plan = makePlan(scene, variant, device);
-        if (!std::ranges::count(stagesOf(plan), stage.name)) return;
-        KernelRequest request = kernelRequest(stage.name, plan);
-        const std::string key = request.modules.text();
-        if (found.emplace(key, std::move(request)).second) order.push_back(key);
-      } catch (const Error&) {  // values that do not go together
-      }
-    });
-  }
+    if (std::ranges::count(a.stages, stage.name) && !base.has(a.name)) {
+      axesRead.emplace_back(a.name, std::vector<std::string>{});
+      for (const AxisValue& value : a.values) axesRead.back().second.push_back(value.name);
+    }
+  const auto planOf = [&](const Variant& variant) -> std::optional<Plan> {
+    try {
+      Plan plan = makePlan(scene, variant, device);
+      if (std::ranges::count(stagesOf(plan), stage.name)) return plan;
+    } catch (const Error&) {  // values that do not go together
+    }
+    return std::nullopt;
+  };
   std::vector<KernelRequest> kernels;
-  for (const std::string& key : order) kernels.push_back(found.at(key));
+  std::set<VariantModules> seen;
+  for (const Variant& variant :
+       covering(base, axesRead, strength, [&](const Variant& v) { return planOf(v).has_value(); })) {
+    KernelRequest request = kernelRequest(stage.name, *planOf(variant));
+    if (seen.insert(request.modules).second) kernels.push_back(std::move(request));
+  }
   return kernels;
 }
 
@@ -83,26 +80,9 @@ std::vector<std::string> settingsOf(const KernelRequest& kernel) {
   return {std::istream_iterator<std::string>(words), {}};
 }
 
-std::vector<KernelRequest> covering(const std::vector<KernelRequest>& kernels) {
-  std::vector<KernelRequest> chosen;
-  std::set<std::string> seen;
-  for (const KernelRequest& kernel : kernels) {
-    bool news = chosen.empty();
-    for (const std::string& setting : settingsOf(kernel)) news |= seen.insert(setting).second;
-    if (news) chosen.push_back(kernel);
-  }
-  return chosen;
-}
-
-std::vector<KernelRequest> coveringKernels(Route route) {
+std::vector<KernelRequest> coveringKernels(Route route, std::size_t strength) {
   std::vector<KernelRequest> all;
-  for (const Stage& stage : stages()) std::ranges::copy(covering(kernelsOf(stage, route)), std::back_inserter(all));
-  return all;
-}
-
-std::vector<KernelRequest> allKernels(Route route) {
-  std::vector<KernelRequest> all;
-  for (const Stage& stage : stages()) std::ranges::copy(kernelsOf(stage, route), std::back_inserter(all));
+  for (const Stage& stage : stages()) std::ranges::copy(kernelsOf(stage, route, strength), std::back_inserter(all));
   return all;
 }
 

@@ -11,13 +11,11 @@ namespace tessera::test {
 /// in object space with normals, or in clip space.
 Scene simpleScene(bool objectSpace);
 
-/// Each distinct kernel of a stage that some plan dispatches on this route.
-std::vector<KernelRequest> kernelsOf(const Stage& stage, Route route);
-/// Some of them, such that each value of each axis that the stage reads is among them.
-std::vector<KernelRequest> covering(const std::vector<KernelRequest>& kernels);
+/// Distinct kernels of a stage that some plan dispatches on this route, such that each set of `strength` values of the axes
+/// that it reads is in one of them. Their product is beyond compiling: raster-tiles alone has some 10^5 kernels.
+std::vector<KernelRequest> kernelsOf(const Stage& stage, Route route, std::size_t strength = 1);
 /// Of all stages.
-std::vector<KernelRequest> coveringKernels(Route route);
-std::vector<KernelRequest> allKernels(Route route);
+std::vector<KernelRequest> coveringKernels(Route route, std::size_t strength);
 
 /// The "axis=value" words of a kernel's variant.
 std::vector<std::string> settingsOf(const KernelRequest& kernel);

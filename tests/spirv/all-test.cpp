@@ -1,4 +1,4 @@
-// The same over every distinct kernel that any plan dispatches.
+// The same over triples: any three values of axes that a stage reads are in a kernel together.
 #include <catch2/catch.hpp>
 
 #include "all-kernels.h"
@@ -6,18 +6,18 @@
 using namespace tessera;
 using namespace tessera::test;
 
-TEST_CASE("all kernels compile to C++") {
+TEST_CASE("kernels of all triples compile to C++") {
   KernelCache cache;
-  const std::vector<KernelRequest> kernels = allKernels(Route::kCpp);
+  const std::vector<KernelRequest> kernels = coveringKernels(Route::kCpp, 3);
   CHECK(cache.getAll(kernels).size() == kernels.size());
 }
 
-TEST_CASE("all SPIR-V of Slang is exact and valid") {
+TEST_CASE("SPIR-V of Slang of all triples is exact and valid") {
   KernelCache cache;
-  CHECK(findings(cache, allKernels(Route::kSpirv)) == std::vector<std::string>{});
+  CHECK(findings(cache, coveringKernels(Route::kSpirv, 3)) == std::vector<std::string>{});
 }
 
-TEST_CASE("all SPIR-V by way of GLSL is exact and valid") {
+TEST_CASE("SPIR-V by way of GLSL of all triples is exact and valid") {
   KernelCache cache;
-  CHECK(findings(cache, allKernels(Route::kGlsl)) == std::vector<std::string>{});
+  CHECK(findings(cache, coveringKernels(Route::kGlsl, 3)) == std::vector<std::string>{});
 }

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "host/error.h"
+#include "tests/support/covering.h"
 
 namespace tessera {
 namespace {
@@ -15,31 +16,6 @@ std::string resolved(const Variant& variant, const DeviceInfo& device) {
   } catch (const Error&) {
     return "";
   }
-}
-
-using Pair = std::pair<std::string, std::string>;  // two "axis=value", the earlier axis first
-
-/// Pairs of `variant` that are in `wanted`.
-std::vector<Pair> pairsIn(const Variant& variant, const std::vector<std::string>& names, const std::set<Pair>& wanted) {
-  std::vector<Pair> found;
-  for (std::size_t a = 0; a < names.size(); ++a)
-    for (std::size_t b = a + 1; b < names.size(); ++b) {
-      const Pair pair{names[a] + "=" + variant.get(names[a]), names[b] + "=" + variant.get(names[b])};
-      if (wanted.contains(pair)) found.push_back(pair);
-    }
-  return found;
-}
-
-std::set<Pair> acceptedPairs(const std::vector<std::string>& names, const DeviceInfo& device) {
-  std::set<Pair> pairs;
-  for (std::size_t a = 0; a < names.size(); ++a)
-    for (std::size_t b = a + 1; b < names.size(); ++b)
-      for (const std::string& first : losslessValues(axis(names[a])))
-        for (const std::string& second : losslessValues(axis(names[b])))
-          if (!first.empty() && !second.empty() &&
-              isAccepted({{names[a], first}, {names[b], second}}, device))
-            pairs.emplace(names[a] + "=" + first, names[b] + "=" + second);
-  return pairs;
 }
 
 }  // namespace
@@ -84,30 +60,12 @@ std::vector<Variant> combinations(const std::vector<std::string>& names, const D
 }
 
 std::vector<Variant> rasterPaths(const DeviceInfo& device) {
-  const std::vector<std::string> names = implementationAxes();
-  std::set<Pair> wanted = acceptedPairs(names, device);
-  std::vector<Variant> paths;
-  while (!wanted.empty()) {
-    // A pair that is not covered yet, then for each other axis the value that covers most with what there is.
-    Variant path;
-    path.set(wanted.begin()->first);
-    path.set(wanted.begin()->second);
-    for (const std::string& name : names) {
-      if (path.has(name)) continue;
-      std::size_t most = 0;
-      Variant best = path;
-      for (const std::string& value : losslessValues(axis(name))) {
-        if (value.empty()) continue;
-        const Variant more = joined(path, {{name, value}});
-        const std::size_t covered = pairsIn(more, names, wanted).size();
-        if ((covered > most || !best.has(name)) && isAccepted(more, device)) best = more, most = covered;
-      }
-      path = best;
-    }
-    for (const Pair& pair : pairsIn(path, names, wanted)) wanted.erase(pair);
-    paths.push_back(path);
+  std::vector<AxisValues> all;
+  for (const std::string& name : implementationAxes()) {
+    all.emplace_back(name, losslessValues(axis(name)));
+    std::erase(all.back().second, "");
   }
-  return paths;
+  return covering({}, all, 2, [&](const Variant& variant) { return isAccepted(variant, device); });
 }
 
 std::vector<Variant> eachAlone(const Variant& base, const DeviceInfo& device) {
