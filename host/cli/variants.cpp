@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -18,6 +19,38 @@ struct VariantsOptions {
 
 std::string rangeText(const Axis& axis) { return fmt::format("{} to {}", axis.least, axis.most); }
 
+/// The devices that can run it.
+std::string devicesText(const AxisValue& value) {
+  if (value.has(kNeedsCpu)) return "CPU";
+  std::vector<std::string> needs;
+  if (value.has(kNeedsInt64)) needs.emplace_back("64-bit integers");
+  if (value.has(kNeedsFloat64)) needs.emplace_back("64-bit floats");
+  if (value.has(kNeedsAtomics64)) needs.emplace_back("64-bit atomics");
+  const std::string with = needs.empty() ? "" : fmt::format(" with {}", fmt::join(needs, " and "));
+  return (value.has(kNeedsVulkan) ? "Vulkan" : "CPU, Vulkan") + with;
+}
+
+/// The rules about it: what it goes with.
+std::vector<std::string> rulesText(const Axis& axis, const std::string& value) {
+  std::vector<std::string> rules;
+  for (const AxisRule& rule : axisRules()) {
+    const bool named = value.empty() ? rule.values.empty() : std::ranges::count(rule.values, value) > 0;
+    if (rule.axis == axis.name && named)
+      rules.push_back(fmt::format("goes with {}={}: {}", rule.other, fmt::join(rule.only, " or "), rule.why));
+  }
+  return rules;
+}
+
+std::string limitsText(const Axis& axis, const AxisValue& value) {
+  std::vector<std::string> all = rulesText(axis, value.name);
+  if (!value.limits.empty()) all.insert(all.begin(), value.limits);
+  return fmt::format("{}", fmt::join(all, "; "));
+}
+
+const std::string& sourceOf(const Axis& axis, const AxisValue& value) {
+  return value.source.empty() ? axis.source : value.source;
+}
+
 std::string axesJson() {
   auto json = nlohmann::ordered_json::array();
   for (const auto& axis : axes()) {
@@ -27,23 +60,36 @@ std::string axesJson() {
                                  {"stages", axis.stages},
                                  {"unset", axis.unset}};
     if (axis.values.empty()) entry["range"] = {axis.least, axis.most};
+    if (const auto rules = rulesText(axis, ""); !rules.empty()) entry["limits"] = fmt::format("{}", fmt::join(rules, "; "));
     for (const auto& value : axis.values)
-      entry["values"].push_back({{"name", value.name}, {"kind", kindName(value.kind)}, {"meaning", value.meaning}});
+      entry["values"].push_back({{"name", value.name},
+                                 {"kind", kindName(value.kind)},
+                                 {"meaning", value.meaning},
+                                 {"limits", limitsText(axis, value)},
+                                 {"source", sourceOf(axis, value)},
+                                 {"devices", devicesText(value)}});
     json.push_back(entry);
   }
   return json.dump(2) + '\n';
 }
 
 std::string axesMarkdown() {
-  std::string text = "| axis | meaning | values | when not set | source |\n|---|---|---|---|---|\n";
+  std::string text;
   for (const auto& axis : axes()) {
-    std::vector<std::string> values;
+    text += fmt::format("## {}\n{}. When not set: {}.", axis.name, axis.meaning, axis.unset);
+    if (!axis.stages.empty()) text += fmt::format(" Read by {}.", fmt::join(axis.stages, ", "));
+    for (const std::string& rule : rulesText(axis, "")) text += fmt::format(" It {}.", rule);
+    if (axis.values.empty()) {
+      text += fmt::format(" An integer, {}.\n\n", rangeText(axis));
+      continue;
+    }
+    text += "\n\n| value | kind | meaning | limits | devices | source |\n|---|---|---|---|---|---|\n";
     for (const auto& value : axis.values)
-      values.push_back(fmt::format("`{}` ({}): {}", value.name, kindName(value.kind), value.meaning));
-    text += fmt::format("| `{}` | {} | {} | {} | {} |\n", axis.name, axis.meaning,
-                        values.empty() ? rangeText(axis) : fmt::format("{}", fmt::join(values, "<br>")), axis.unset,
-                        axis.source);
+      text += fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", value.name, kindName(value.kind), value.meaning,
+                          limitsText(axis, value), devicesText(value), sourceOf(axis, value));
+    text += '\n';
   }
+  text.pop_back();
   return text;
 }
 
@@ -52,8 +98,13 @@ std::string axesText() {
   for (const auto& axis : axes()) {
     text += fmt::format("{}: {}\n", axis.name, axis.meaning);
     if (axis.values.empty()) text += fmt::format("  {}\n", rangeText(axis));
-    for (const auto& value : axis.values)
-      text += fmt::format("  {:<14} {:<14} {}\n", value.name, kindName(value.kind), value.meaning);
+    for (const auto& value : axis.values) {
+      text += fmt::format("  {:<18} {:<14} {:<12} {}\n", value.name, kindName(value.kind), devicesText(value), value.meaning);
+      if (const std::string limits = limitsText(axis, value); !limits.empty())
+        text += fmt::format("  {:<18} limits: {}\n", "", limits);
+      if (!value.source.empty()) text += fmt::format("  {:<18} source: {}\n", "", value.source);
+    }
+    for (const std::string& rule : rulesText(axis, "")) text += fmt::format("  {}\n", rule);
     text += fmt::format("  when not set: {}\n", axis.unset);
     if (!axis.source.empty()) text += fmt::format("  source: {}\n", axis.source);
     text += '\n';

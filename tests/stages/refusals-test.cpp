@@ -62,17 +62,56 @@ TEST_CASE("Axes that a scene cannot have are refused", "[refusals]") {
 
 TEST_CASE("Axes that do not go together are refused", "[refusals]") {
   checkRefusal(sphere(), {{"commit", "tile-owned"}, {"binning", "none"}}, cpu(), ExitCode::kUsage,
-               {"commit=tile-owned", "binning=none", "needs bins", "set binning=exact or queue"});
+               {"commit=tile-owned", "binning=none", "owns tiles", "set binning=aabb-scan or queue or exact"});
   checkRefusal(sphere(), {{"shade", "flat"}, {"commit", "count"}}, cpu(), ExitCode::kUsage,
                {"shade=flat", "commit=count", "no ids", "set shade=none"});
+  checkRefusal(sphere(), {{"commit", "depth24+lum8"}, {"shade", "smooth"}}, cpu(), ExitCode::kUsage,
+               {"commit=depth24+lum8", "shade=smooth", "one colour a triangle", "set shade=id or flat"});
+  checkRefusal(sphere(), {{"capacity", "64"}, {"binning", "exact"}}, cpu(), ExitCode::kUsage,
+               {"capacity=64", "binning=exact", "only queues have a capacity", "set binning=queue"});
+  checkRefusal(sphere(), {{"overflow", "drop"}, {"binning", "bitmask"}}, cpu(), ExitCode::kUsage,
+               {"overflow=drop", "binning=bitmask", "only queues overflow", "set binning=queue"});
+  checkRefusal(sphere(), {{"tile", "8"}, {"binning", "none"}}, cpu(), ExitCode::kUsage,
+               {"tile=8", "binning=none", "there are no tiles", "set binning="});
+  for (const char* const edge : {"float32-plane", "float32-difference"}) {
+    checkRefusal(sphere(), {{"edge", edge}, {"tile-test", "edges"}}, cpu(), ExitCode::kUsage,
+                 {"tile-test=edges", edge, "may cover samples", "set edge=int32 or int64 or float64"});
+    checkRefusal(sphere(), {{"edge", edge}, {"step", "incremental"}}, cpu(), ExitCode::kUsage,
+                 {"step=incremental", edge, "round again", "set edge=int32 or int64 or float64"});
+    // Left to the plan, tiles are tested by their boxes.
+    CHECK(makePlan(sphere(), {{"edge", edge}}, cpu()).resolved.get("tile-test") == "box");
+  }
+  // What one axis asks for decides another that is left to the plan.
+  CHECK(makePlan(sphere(), {{"capacity", "64"}}, cpu()).resolved.get("binning") == "queue");
+  CHECK(makePlan(sphere(), {{"commit", "lock"}, {"tile", "8"}}, cpu()).resolved.get("binning") == "exact");
+  CHECK(makePlan(sphere(), {{"commit", "depth32+rgba8"}}, cpu()).resolved.get("shade") == "flat");
+}
+
+TEST_CASE("What a scene makes hopeless is refused before anything runs", "[refusals]") {
+  Scene million;
+  million.width = million.height = 2048;
+  million.clip = {{0, 0, 0, 1}, {1, 0, 0, 1}, {0, 1, 0, 1}};
+  million.triangles.assign(1310720, {0, 1, 2});
+  checkRefusal(million, {{"binning", "aabb-scan"}, {"tile", "8"}}, cpu(), ExitCode::kUsage,
+               {"binning=aabb-scan", "65536 tiles", "1310720 boxes", "larger tile, or binning=exact"});
+  checkRefusal(million, {{"binning", "bitmask"}, {"tile", "8"}}, cpu(), ExitCode::kUsage,
+               {"binning=bitmask", "10.0 GiB", "larger tile, or binning=exact"});
+  DeviceInfo small = vulkan();
+  small.maxBufferBytes = 128u << 20;
+  checkRefusal(million, {{"binning", "bitmask"}, {"tile", "64"}}, small, ExitCode::kUnsupported,
+               {"binning=bitmask", "160 MiB", "test GPU holds 128", "larger tile, or binning=exact"});
+  checkRefusal(million, {{"commit", "depth16+id16"}}, cpu(), ExitCode::kUsage,
+               {"commit=depth16+id16", "65,535 triangles", "1310720", "set commit=depth24+lum8 or two-pass"});
+  CHECK(makePlan(million, {{"binning", "aabb-scan"}, {"tile", "64"}}, cpu()).resolved.get("tile") == "64");
+  CHECK(makePlan(million, {{"binning", "bitmask"}, {"tile", "64"}}, cpu()).resolved.get("tile") == "64");
 }
 
 TEST_CASE("Variants that a device cannot run are refused", "[refusals]") {
   checkRefusal(sphere(), {{"route", "spirv"}}, cpu(), ExitCode::kUnsupported,
-               {"route=spirv", "cpu device", "route=cpp"});
-  checkRefusal(sphere(), {{"route", "glsl"}}, cpu(), ExitCode::kUnsupported, {"route=glsl", "cpu device", "route=cpp"});
+               {"route=spirv", "for Vulkan devices", "set route=cpp"});
+  checkRefusal(sphere(), {{"route", "glsl"}}, cpu(), ExitCode::kUnsupported, {"route=glsl", "for Vulkan devices", "set route=cpp"});
   checkRefusal(sphere(), {{"route", "cpp"}}, vulkan(), ExitCode::kUnsupported,
-               {"route=cpp", "vulkan device", "route=spirv or route=glsl"});
+               {"route=cpp", "for the CPU device", "set route=spirv or glsl"});
   DeviceInfo device = vulkan();
   device.maxGroupBytes = 16384;
   checkRefusal(sphere(), {{"tile", "64"}}, device, ExitCode::kUnsupported,
@@ -80,13 +119,21 @@ TEST_CASE("Variants that a device cannot run are refused", "[refusals]") {
   device = vulkan();
   device.atomicMin64 = false;
   checkRefusal(sphere(), {{"commit", "depth32+id32"}}, device, ExitCode::kUnsupported,
-               {"commit=depth32+id32", "shaderBufferInt64Atomics", "test GPU", "set commit=two-pass"});
+               {"commit=depth32+id32", "shaderBufferInt64Atomics", "test GPU", "set commit=tile-owned or two-pass"});
   // Left to the plan, the packing is one that the device has.
   CHECK(makePlan(sphere(), {{"binning", "none"}}, device).resolved.get("commit") == "two-pass");
   CHECK(makePlan(sphere(), {{"binning", "none"}}, vulkan()).resolved.get("commit") == "depth32+id32");
   device = vulkan();
   device.int64 = false;
-  checkRefusal(sphere(), {}, device, ExitCode::kUnsupported, {"test GPU", "shaderInt64"});
+  checkRefusal(sphere(), {{"wide", "native"}}, device, ExitCode::kUnsupported,
+               {"wide=native", "test GPU", "shaderInt64", "set wide=two-word"});
+  CHECK(makePlan(sphere(), {}, device).resolved.get("wide") == "two-word");
+  device = vulkan();
+  device.float64 = false;
+  checkRefusal(sphere(), {{"edge", "float64"}}, device, ExitCode::kUnsupported,
+               {"edge=float64", "test GPU", "shaderFloat64", "set edge=int32 or int64"});
+  checkRefusal(sphere(), {{"commit", "lock"}}, vulkan(), ExitCode::kUnsupported,
+               {"commit=lock", "CPU device", "own subgroup", "set commit=tile-owned or depth32+id32"});
 }
 
 TEST_CASE("A device with little group memory gets a tile that fits", "[refusals]") {
