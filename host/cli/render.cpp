@@ -30,6 +30,20 @@ Variant counting(Variant variant) {
   return variant;
 }
 
+/// What is not zero, in pipeline order, in lines of at most 110 columns.
+std::string countersText(const Counters& counters) {
+  std::string text = "\ncounted:";
+  for (const CounterDoc& doc : counterDocs()) {
+    const auto found = counters.find(doc.name);
+    if (found == counters.end() || found->second == 0) continue;
+    const std::string item = fmt::format(" {} {},", doc.name, grouped(found->second));
+    if (text.size() - text.rfind('\n') + item.size() > 110) text += "\n ";
+    text += item;
+  }
+  text.back() = '\n';
+  return text.substr(1);
+}
+
 std::string summary(const RenderOptions& options, const Run& run, std::uint64_t covered) {
   const Scene& scene = *run.scene;
   const double pixels = static_cast<double>(scene.width) * scene.height;
@@ -46,6 +60,7 @@ std::string summary(const RenderOptions& options, const Run& run, std::uint64_t 
       {fmt::format("{} ({} of {})", frameLabel(run), run.samples.size() > 1 ? "median" : "time", run.samples.size()),
        milliseconds(totalSpread(run.samples).median)});
   text += table(rows);
+  text += countersText(run.counters);
   text += errorSummary(run);
   for (const auto& output : options.outputs) text += fmt::format("wrote {}\n", output);
   return text;

@@ -99,7 +99,8 @@ std::string axesText() {
     text += fmt::format("{}: {}\n", axis.name, axis.meaning);
     if (axis.values.empty()) text += fmt::format("  {}\n", rangeText(axis));
     for (const auto& value : axis.values) {
-      text += fmt::format("  {:<18} {:<14} {:<12} {}\n", value.name, kindName(value.kind), devicesText(value), value.meaning);
+      text += fmt::format("  {:<18} {:<14} {}\n", value.name, kindName(value.kind), value.meaning);
+      if (devicesText(value) != devicesText({})) text += fmt::format("  {:<18} devices: {}\n", "", devicesText(value));
       if (const std::string limits = limitsText(axis, value); !limits.empty())
         text += fmt::format("  {:<18} limits: {}\n", "", limits);
       if (!value.source.empty()) text += fmt::format("  {:<18} source: {}\n", "", value.source);
