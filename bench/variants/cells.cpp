@@ -46,12 +46,14 @@ class Maker {
   /// What the planner takes for commits that are set alone.
   std::vector<std::string> binningsOfCommits() const {
     std::vector<std::string> chosen;
-    for (const std::string& commit : valuesOf("commit")) try {
+    for (const std::string& commit : valuesOf("commit")) {
+      try {
         const std::string binning = makePlan(scene_, {{"commit", commit}}, device_).resolved.get("binning");
         if (std::ranges::find(chosen, binning) == chosen.end()) chosen.push_back(binning);
       } catch (const Error&) {
         continue;  // its cells say why
       }
+    }
     return chosen;
   }
 

@@ -46,7 +46,7 @@ Spread ratio(const Cell& cell);
 
 struct Limits {
   unsigned rounds = 7;
-  double budgetS = 6;  ///< a cell and scene: no further round once it is spent
+  double budgetS = 5;  ///< a cell and scene: no further round once it is spent
   double slowS = 5;    ///< a cell whose first frame takes longer is measured once
 };
 

@@ -10,7 +10,7 @@
 namespace tessera::bench {
 namespace {
 
-constexpr int kCellWidth = 92, kCellHeight = 26, kLabel = 116, kTitle = 52, kGap = 28;
+constexpr int kCellWidth = 92, kCellHeight = 26, kLabel = 140, kTitle = 52, kGap = 28;
 constexpr double kFar = 5;  // colours end at 2^-5 and 2^5
 
 using Rgb = std::array<double, 3>;
