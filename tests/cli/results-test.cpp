@@ -166,7 +166,9 @@ TEST_CASE("Plan and variants and devices print what they promise") {
   const std::string text = desk.tessera("variants").out, markdown = desk.tessera("variants --markdown").out;
   for (const auto& axis : axes) {
     CHECK(text.find(axis["name"].get<std::string>() + ": ") != std::string::npos);
-    CHECK(markdown.find("| `" + axis["name"].get<std::string>() + "` |") != std::string::npos);
+    CHECK(markdown.find("## " + axis["name"].get<std::string>() + "\n") != std::string::npos);
+    for (const auto& value : axis.value("values", json::array()))
+      for (const char* const field : {"name", "kind", "meaning", "limits", "source", "devices"}) CHECK(value.contains(field));
   }
   const auto devices = desk.tessera("devices");
   INFO(devices.out << devices.err);
