@@ -133,7 +133,6 @@ void writeFile(const std::string& name, const std::string& text) {
   std::error_code ignored;  // writeBeside() fails, too
   std::filesystem::create_directories(path.parent_path(), ignored);
   if (!writeBeside(path, text)) fail(fmt::format("{}: cannot be written", name));
-  fmt::print(stderr, "variants: wrote {}\n", name);
 }
 
 void runAll(const Options& options) {
@@ -155,9 +154,10 @@ void runAll(const Options& options) {
     Measurement(scene, cells, options.limits, *device, kernels).run();
     fmt::print("\n{}", text(cells, options.limits));
     std::fflush(stdout);
+    // After each scene, so that what was measured stays when a later one fails.
+    if (!options.jsonFile.empty()) writeFile(options.jsonFile, jsonLines(report, options.raw));
+    writeFile(options.svgFile, heatMap(report));
   }
-  if (!options.jsonFile.empty()) writeFile(options.jsonFile, jsonLines(report, options.raw));
-  writeFile(options.svgFile, heatMap(report));
 }
 
 }  // namespace
