@@ -55,9 +55,9 @@ std::string Choice::take(std::string_view name, const std::vector<std::string>& 
   }
   if (!a.values.empty())
     if (const auto missing = missingFeature(axisValue(a.name, value), device_)) {
-      std::vector<std::string> others;
+      std::vector<std::string> others;  // of its kind: what would give the image that was asked for
       for (const AxisValue& other : a.values)
-        if (fits(a, other.name)) others.push_back(other.name);
+        if (other.kind == axisValue(a.name, value).kind && fits(a, other.name)) others.push_back(other.name);
       failUnsupported(fmt::format("{}={}: {}; set {}={}", a.name, value, *missing, a.name, fmt::join(others, " or ")));
     }
   taken_.set(name, value);

@@ -21,6 +21,7 @@ const std::vector<CounterDoc>& counterDocs() {
       {"items", "64 x 64 blocks of pieces larger than that", true},
       {"overflowed", "bin entries that did not fit and were not retried (overflow=drop)", true},
       {"largestBin", "pieces in the fullest tile", true},
+      {"evaluations", "cells whose edge functions were evaluated, not stepped (counters=work)", true, true},
       {"looks", "cells and blocks that the edges classified (counters=work)", true, true},
       {"tests", "samples tested against a triangle's edges (counters=work)", true, true},
       {"covered", "samples covered, each hit counted (counters=work)", true, true},

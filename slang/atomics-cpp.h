@@ -32,12 +32,10 @@ template <typename T, typename E, typename V> static inline T tesseraAtomicCompa
   return before;
 }
 
-// Returns the exchanges that it took. Whoever holds the lock leaves it after two loads and two stores, so others wait for
-// a bounded number of holders; a holder that the system has put aside is waited for without burning its core.
-template <typename T> static inline T tesseraLock(T* word) {
-  T tries = 1;
-  for (; __atomic_exchange_n(word, T(1), __ATOMIC_ACQUIRE) != 0; ++tries)
+// Whoever holds the lock leaves it after two loads and two stores, so others wait for a bounded number of holders; a
+// holder that the system has put aside is waited for without burning its core.
+template <typename T> static inline void tesseraLock(T* word) {
+  for (int tries = 1; __atomic_exchange_n(word, T(1), __ATOMIC_ACQUIRE) != 0; ++tries)
     if (tries % 64 == 0) sched_yield();
-  return tries;
 }
 template <typename T> static inline void tesseraUnlock(T* word) { __atomic_store_n(word, T(0), __ATOMIC_RELEASE); }

@@ -9,7 +9,9 @@
 using namespace tessera;
 
 PLACE_TEST_CASE("Nothing of 500000 triangles in one block is lost", "[limits]") {
-  const Scene scene = loadInput("generate:hot?count=500000&block=64", 2048, 2048);
+  // By way of GLSL a fifth: the other route to the same driver has them all.
+  const bool less = machine.route() == Route::kGlsl;
+  const Scene scene = loadInput(less ? "generate:hot?count=100000&block=64" : "generate:hot?count=500000&block=64", 2048, 2048);
   const reference::Result oracle = reference::render(scene);
   const Frame byExact = machine.render(scene, {{"binning", "exact"}, {"commit", "count"}});
   const Frame byQueue = machine.render(scene, {{"binning", "queue"}, {"commit", "count"}, {"capacity", "16"}});
@@ -44,7 +46,13 @@ PLACE_TEST_CASE("A triangle covers the whole of 4096 x 4096 on each path", "[lim
   scene.triangles = {{0, 1, 2}};
   const reference::Result oracle = reference::render(scene);
   REQUIRE(oracle.counts.covered == std::uint64_t{4096} * 4096);
-  for (const Variant& variant : eachAlone({}, machine.info())) {
+  // On a software driver seconds a frame: there, what chooses cells and tiles.
+  std::vector<Variant> variants = eachAlone({}, machine.info());
+  if (machine.info().correctnessOnly) {
+    variants = combinations({"binning"}, machine.info());
+    for (const Variant& traversal : combinations({"traversal"}, machine.info())) variants.push_back(traversal);
+  }
+  for (const Variant& variant : variants) {
     INFO(variant.text());
     CHECK(difference(machine.render(scene, variant), oracle) == "");
   }

@@ -119,7 +119,7 @@ TEST_CASE("Variants that a device cannot run are refused", "[refusals]") {
   device = vulkan();
   device.atomicMin64 = false;
   checkRefusal(sphere(), {{"commit", "depth32+id32"}}, device, ExitCode::kUnsupported,
-               {"commit=depth32+id32", "shaderBufferInt64Atomics", "test GPU", "set commit=tile-owned or two-pass"});
+               {"commit=depth32+id32", "shaderBufferInt64Atomics", "test GPU", "set commit=two-pass"});
   // Left to the plan, the packing is one that the device has.
   CHECK(makePlan(sphere(), {{"binning", "none"}}, device).resolved.get("commit") == "two-pass");
   CHECK(makePlan(sphere(), {{"binning", "none"}}, vulkan()).resolved.get("commit") == "depth32+id32");
@@ -133,7 +133,7 @@ TEST_CASE("Variants that a device cannot run are refused", "[refusals]") {
   checkRefusal(sphere(), {{"edge", "float64"}}, device, ExitCode::kUnsupported,
                {"edge=float64", "test GPU", "shaderFloat64", "set edge=int32 or int64"});
   checkRefusal(sphere(), {{"commit", "lock"}}, vulkan(), ExitCode::kUnsupported,
-               {"commit=lock", "CPU device", "own subgroup", "set commit=tile-owned or depth32+id32"});
+               {"commit=lock", "CPU device", "own subgroup", "set commit=depth32+id32 or two-pass"});
 }
 
 TEST_CASE("A device with little group memory gets a tile that fits", "[refusals]") {
