@@ -25,7 +25,7 @@ std::uint64_t scenesFor(const Machine& machine) { return machine.isSwiftShader()
 /// Variants a scene: a CPU renders a small scene in a fraction of a millisecond, a software Vulkan driver takes tens of
 /// times as long.
 std::size_t variantsOfScene(const Machine& machine) {
-  return machine.info().api == "cpu" ? 24 : machine.isSwiftShader() ? 2 : 6;
+  return machine.info().api == "cpu" ? 6 : machine.isSwiftShader() ? 2 : 3;
 }
 
 /// The axes that are no raster path, each value as often as the others where it goes with those before it.
@@ -65,6 +65,7 @@ bool isMild(const Scene& scene) {
 PLACE_AND_SWIFTSHADER_TEST_CASE("Random scenes have the oracle's bits under all variants", "[random]") {
   const std::vector<Variant> paths = rasterPaths(machine.info());
   std::map<std::string, std::size_t> scenesOf;  // by "axis=value", and by path
+  REQUIRE(paths.size() >= kImages);
   std::size_t next = 0, failures = 0;
   for (std::uint64_t seed = 0; seed < scenesFor(machine) && failures < 3; ++seed) {
     const Scene scene = randomScene(seed);
@@ -73,8 +74,9 @@ PLACE_AND_SWIFTSHADER_TEST_CASE("Random scenes have the oracle's bits under all 
     const reference::Result oracle = reference::render(scene, imageOf(image));
     Random random(seed);
     for (std::size_t i = 0; i < variantsOfScene(machine) && failures < 3; ++i, ++next) {
-      // From end to end of the list, also where there are fewer frames than paths: 10007 is prime.
-      const Variant& path = paths[next * 10007 % paths.size()];
+      // A path comes with one of the images only, so that it has one raster kernel.
+      const std::size_t chosen = (next % (paths.size() / kImages + 1)) * kImages + seed % kImages;
+      const Variant& path = paths[chosen < paths.size() ? chosen : seed % kImages];
       const Variant variant = drawOthers(machine, scene, joined(path, image), random);
       INFO(scene.name << ", " << scene.width << " x " << scene.height << ", " << variant.text());
       const std::string different = difference(machine.render(scene, variant), oracle);
@@ -92,6 +94,6 @@ PLACE_AND_SWIFTSHADER_TEST_CASE("Random scenes have the oracle's bits under all 
   for (const auto& [what, scenes] : scenesOf) {
     INFO(what);
     const bool single = what.find(' ') == std::string::npos;
-    CHECK(scenes * (1000 / kScenes) >= (machine.info().api == "cpu" || single ? 200u : 50u));
+    CHECK(scenes * (1000 / kScenes) >= (single ? 100u : 30u));
   }
 }

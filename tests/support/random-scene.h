@@ -18,7 +18,10 @@ namespace tessera {
 /// ones in another order of vertices, and without area. In one scene of eight a few vertices are NaN or infinite and a
 /// few indices out of range.
 Scene randomScene(std::uint64_t seed);
-/// The image-defining axes for such a scene: cull, none in half of them.
+/// As many images as it takes for each value of each image axis that the oracle follows to come up: a multiple of the
+/// number of values of each.
+inline constexpr std::uint64_t kImages = 12;
+/// The image axes of a scene, kImages settings in turn: few, since each has raster kernels of its own.
 Variant randomImage(std::uint64_t seed);
 
 }  // namespace tessera
