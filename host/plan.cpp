@@ -109,7 +109,7 @@ class Planner {
     const double bytes = tiles * std::ceil(triangles / 32) * 4;
     if (bytes > kMostMaskBytes)
       failUsage(fmt::format("binning=bitmask: a bit for each of {} tiles and {} triangles takes {:.1f} GiB; up to "
-                            "{:.0f} would be taken: set a larger tile, or binning=exact",
+                            "{:.0f} GiB would be taken: set a larger tile, or binning=exact",
                             tiles, triangles, bytes / 0x1p30, kMostMaskBytes / 0x1p30));
     if (bytes > double(device_.maxBufferBytes))
       failUnsupported(fmt::format("binning=bitmask: a bit for each of {} tiles and {} triangles takes {:.0f} MiB, the "
@@ -128,8 +128,8 @@ class Planner {
                                   choice_.resolved().get("tile"), commit.name, groupMemory, device_.name,
                                   device_.maxGroupBytes));
     if (commit.name == "depth16+id16" && scene_.triangles.size() > 65535)
-      failUsage(fmt::format("commit=depth16+id16: 16 bits tell 65,535 triangles apart, the scene has {}; set "
-                            "commit=depth24+lum8 or two-pass",
+      failUsage(fmt::format("commit=depth16+id16: 16 bits tell 65535 triangles apart, the scene has {}; set "
+                            "commit=depth32+id32 or two-pass",
                             scene_.triangles.size()));
     plan_.clear = full_ || !commit.has(kWritesTiles);
     plan_.resolve = commit.has(kResolves);

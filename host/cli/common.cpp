@@ -114,7 +114,11 @@ void addDevice(CLI::App& app, Options& options, bool many) {
 
 Variant variantOf(const Options& options) {
   Variant variant;
-  for (const auto& setting : options.settings) variant.set(setting);
+  for (const auto& setting : options.settings) {
+    const std::string name = setting.substr(0, setting.find('='));
+    if (variant.has(name)) failUsage(fmt::format("--set {}: {} is set twice; once would do", setting, name));
+    variant.set(setting);
+  }
   return variant;
 }
 

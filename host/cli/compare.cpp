@@ -15,6 +15,19 @@ struct CompareOptions {
   std::string a, b, output;
 };
 
+/// A line for each channel that one of the two has and the other has not: it is not compared.
+std::string missingText(const CompareOptions& options, const Framebuffer& a, const Framebuffer& b) {
+  std::string text;
+  const auto check = [&](const char* channel, bool inA, bool inB) {
+    if (inA != inB) text += fmt::format("{}: only in {}, not compared\n", channel, inA ? options.a : options.b);
+  };
+  check("id and depth", !a.ids.empty(), !b.ids.empty());
+  check("hits", !a.hits.empty(), !b.hits.empty());
+  check("values", !a.attribute.empty(), !b.attribute.empty());
+  check("colour", !a.colour.empty(), !b.colour.empty());
+  return text;
+}
+
 ExitCode runCompare(const CompareOptions& options) {
   if (!options.output.empty()) {
     checkImagePath(options.output);
@@ -28,7 +41,8 @@ ExitCode runCompare(const CompareOptions& options) {
         .width = a.width, .height = a.height, .depth = {}, .ids = {}, .hits = {}, .colour = differencePicture(a, b)};
     writeImage(options.output, picture);
   }
-  fmt::print("{}", describe(difference));
+  fmt::print("{}{}", missingText(options, a, b), describe(difference));
+  if (!options.output.empty()) fmt::print("wrote {}\n", options.output);
   if (difference.equal()) return ExitCode::kDone;
   fmt::print("{}\n", firstPixel(difference, {options.a, a}, {options.b, b}));
   return ExitCode::kDifference;
@@ -39,7 +53,7 @@ ExitCode runCompare(const CompareOptions& options) {
 Command addCompare(CLI::App& app) {
   auto options = std::make_shared<CompareOptions>();
   auto* const command =
-      app.add_subcommand("compare", "compare two .exr images bit by bit; exit code 5 when they differ");
+      app.add_subcommand("compare", "compare two .exr images bit by bit in the channels that both have; exit code 5 when they differ");
   command->add_option("A", options->a, "an .exr that render wrote")->required();
   command->add_option("B", options->b, "another of the same size")->required();
   command->add_option("-o,--output", options->output, "a picture of where they differ")->type_name("FILE.png");

@@ -93,11 +93,11 @@ Framebuffer renderFrames(const RenderOptions& options, Device& device, KernelCac
 }
 
 ExitCode render(const RenderOptions& options) {
+  const Variant variant = variantOf(options);
   if (options.outputs.empty() && options.json.empty())
     failUsage("render: nothing to write; -o FILE.png, -o FILE.exr or --json FILE is needed");
   for (const auto& output : options.outputs) checkImagePath(output);
   if (!options.json.empty()) checkOutputPath(options.json, options.input);
-  const Variant variant = variantOf(options);
   KernelCache kernels({.files = kernelFilesOf(options)});
   const auto device = openDevice(options);
   const Scene scene = sceneOf(options);

@@ -104,6 +104,12 @@ TEST_CASE("Compare finds one pixel and draws it") {
   CHECK(std::filesystem::exists(desk.path() / "other.png"));
 
   REQUIRE(desk.tessera("render flat.toml -o small.exr --size 8x8").code == 0);
+  REQUIRE(desk.tessera("render 'generate:icosphere?level=0' --size 8x8 -o plain.exr").code == 0);
+  REQUIRE(desk.tessera("render 'generate:icosphere?level=0' --size 8x8 --set shade=id -o shaded.exr").code == 0);
+  const auto partly = desk.tessera("compare plain.exr shaded.exr");
+  CHECK(partly.code == 0);
+  CHECK(partly.out.find("colour: only in shaded.exr, not compared") != std::string::npos);
+
   const auto sizes = desk.tessera("compare a.exr small.exr");
   CHECK(sizes.code == 2);
   CHECK(sizes.complainsOnce());

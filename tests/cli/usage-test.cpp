@@ -35,6 +35,8 @@ TEST_CASE("Commands and options that do not exist are refused") {
            {"--frobnicate", "--frobnicate"},
            {"render", "INPUT"},
            {"render two.obj", "nothing to write"},
+           {"render two.obj --set tile=12", "tile=12"},
+           {"render two.obj -o a.png --set tile=8 --set tile=16", "tile is set twice"},
            {"render two.obj -o a.png --frobnicate", "--frobnicate"},
            {"render two.obj extra.obj -o a.png", "extra.obj"},
            {"render two.obj -o", "--output"},

@@ -101,7 +101,7 @@ TEST_CASE("What a scene makes hopeless is refused before anything runs", "[refus
   checkRefusal(million, {{"binning", "bitmask"}, {"tile", "64"}}, small, ExitCode::kUnsupported,
                {"binning=bitmask", "160 MiB", "test GPU holds 128", "larger tile, or binning=exact"});
   checkRefusal(million, {{"commit", "depth16+id16"}}, cpu(), ExitCode::kUsage,
-               {"commit=depth16+id16", "65,535 triangles", "1310720", "set commit=depth24+lum8 or two-pass"});
+               {"commit=depth16+id16", "65535 triangles", "1310720", "set commit=depth32+id32 or two-pass"});
   CHECK(makePlan(million, {{"binning", "aabb-scan"}, {"tile", "64"}}, cpu()).resolved.get("tile") == "64");
   CHECK(makePlan(million, {{"binning", "bitmask"}, {"tile", "64"}}, cpu()).resolved.get("tile") == "64");
 }
