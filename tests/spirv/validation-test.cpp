@@ -7,6 +7,7 @@
 #include "host/rasterizer.h"
 #include "host/row.h"
 #include "host/vulkan/vulkan-device.h"
+#include "tests/support/variants.h"
 
 using namespace tessera;
 using namespace tessera::test;
@@ -36,6 +37,8 @@ class Watched {
     return frame;
   }
 
+  const DeviceInfo& info() const { return device_->info(); }
+
   std::vector<std::string> messages;
 
  private:
@@ -53,27 +56,30 @@ TEST_CASE("validation is silent over each binning and commit") {
   for (const char* route : {"spirv", "glsl"}) {
     Watched watched;
     int frames = 0;
-    for (const AxisValue& binning : axis("binning").values) {
+    for (const AxisValue& binning : axis("binning").values)
       for (const AxisValue& commit : axis("commit").values) {
-        if (binning.name == "none" && commit.name == "tile-owned") continue;
-        watched.render(scene, {{"route", route}, {"binning", binning.name}, {"commit", commit.name}});
+        const Variant variant{{"route", route}, {"binning", binning.name}, {"commit", commit.name}};
+        if (!isAccepted(variant, watched.info())) continue;
+        watched.render(scene, variant);
         ++frames;
       }
-    }
-    CHECK(frames >= 11);
+    CHECK(frames == 5 * 7 - 1);  // the lock is the CPU's, and without bins no tile is owned
   }
 }
 
 TEST_CASE("validation is silent over the other axes") {
   const Scene scene = sphere();
   Watched watched;
-  watched.render(scene, {});
-  for (const char* setting : {"plan=full", "tile=8", "tile=16", "tile=32", "shade=id", "shade=flat", "shade=smooth", "counters=work",
-                              "traversal=pixel", "edge=int64", "cull=back", "between-samples=off"}) {
-    Variant variant;
-    variant.set(setting);
-    watched.render(scene, variant);
-  }
+  int frames = 0;
+  for (const Axis& a : axes())
+    for (const AxisValue& value : a.values) {
+      const Variant variant{{a.name, value.name}};
+      // The sphere is in perspective, which no plan for an empty scene knows.
+      if (value.name == "orthographic" || !isAccepted(variant, watched.info())) continue;
+      watched.render(scene, variant);
+      ++frames;
+    }
+  CHECK(frames > 40);
 }
 
 TEST_CASE("validation is silent over retries and clipping and empty frames") {
