@@ -57,24 +57,6 @@ KernelRequest scaleRequest(Route route, const std::string& variant) {
   return {"scale", "rasterizer/scale.slang", "scaleAll", route, {"", variant}, "step=1"};
 }
 
-std::string lineOf(ExitCode code, const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    CHECK(error.code() == code);
-    CHECK(std::string(error.what()).find('\n') == std::string::npos);
-    return error.what();
-  }
-  FAIL("no error");
-  return "";
-}
-
-bool contains(const std::string& text, const std::string& part) {
-  if (text.find(part) != std::string::npos) return true;
-  UNSCOPED_INFO("\"" << part << "\" is not in: " << text);
-  return false;
-}
-
 std::size_t countFiles(const fs::path& folder, const std::string& ending) {
   std::size_t count = 0;
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {

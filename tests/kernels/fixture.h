@@ -2,12 +2,11 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <string>
 
-#include "host/error.h"
 #include "host/files.h"
 #include "host/kernel-cache.h"
+#include "tests/support/error-line.h"
 
 namespace tessera::test {
 
@@ -37,11 +36,6 @@ struct Workshop {
 inline constexpr const char* kVariant = "module variant;\npublic static const int kStep = 1;\n";
 KernelRequest scaleRequest(Route route = Route::kCpp, const std::string& variant = kVariant);
 
-/// The line of the Error that `action` throws, after checking its code; fails the test if it throws none or says more
-/// than a line.
-std::string lineOf(ExitCode code, const std::function<void()>& action);
-
-bool contains(const std::string& text, const std::string& part);
 /// Files in a folder, at any depth, whose name ends so.
 std::size_t countFiles(const std::filesystem::path& folder, const std::string& ending);
 

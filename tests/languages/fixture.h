@@ -2,14 +2,13 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "host/error.h"
 #include "host/files.h"
 #include "host/rasterizer.h"
+#include "tests/support/error-line.h"
 #include "tests/support/machines.h"
 
 namespace tessera::test {
@@ -31,8 +30,5 @@ struct Bench {
 Machine machineWith(const std::string& route, const KernelFiles& files);
 /// Two overlapping triangles in object space, 40 x 24, that need no clipping and no division.
 Scene smallScene();
-/// The line of the Error that `action` throws, after checking its code.
-std::string lineOf(ExitCode code, const std::function<void()>& action);
-bool contains(const std::string& text, const std::string& part);
 
 }  // namespace tessera::test
