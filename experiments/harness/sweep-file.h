@@ -1,0 +1,71 @@
+// sweep.toml: what varies, on which scenes, how often. experiments/README.md documents the keys.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "datasets/input.h"
+#include "host/kernel-cache.h"
+#include "host/variant.h"
+
+namespace tessera::harness {
+
+struct SweepScene {
+  std::string name;             ///< its key in [scenes]
+  std::string input;            ///< as loadInput takes it; a path is relative to the sweep's folder, and made absolute here
+  std::string text;             ///< the input as the file has it, for rows and commands
+  AttributeRequest attribute;
+  std::optional<double> x;      ///< the number that the scene stands for on plots, e.g. its triangles' area in pixels
+};
+
+/// One axis of variation and its values, in the file's order.
+struct SweptAxis {
+  std::string axis;
+  std::vector<std::string> values;
+};
+
+struct Size {
+  std::uint32_t width = 0, height = 0;
+};
+
+/// A stage whose kernel varies: "" is the stage's own, others are files as `render --kernel` takes them.
+struct SweptKernel {
+  std::string stage;
+  std::vector<std::filesystem::path> files;  ///< absolute
+  std::vector<std::string> texts;            ///< as the file has them
+};
+
+/// Combinations that are not made: those that have one of the values for each of the axes named.
+using LeaveOut = std::vector<std::pair<std::string, std::vector<std::string>>>;
+
+struct Sweep {
+  std::filesystem::path path;   ///< of the file
+  std::string text;             ///< of the file
+  std::string sha256;           ///< of the text
+  std::string title, question;
+  std::uint64_t seed = 1;       ///< of the order in which cells take their turns
+  std::vector<SweepScene> scenes;
+  std::vector<Size> sizes;
+  std::vector<std::string> devices{"cpu"};
+  std::vector<unsigned> threads{0};  ///< of the CPU device; 0: all cores. Other devices ignore it
+  Variant set;                       ///< axes that are the same in every cell
+  std::vector<SweptAxis> axes;
+  std::vector<SweptKernel> kernels;
+  std::vector<LeaveOut> leaveOut;
+  Variant reference;                 ///< with `set`: the cell whose time the others are divided by
+  Variant truth;                     ///< image axes of the picture that `truth_error` is measured from; empty: none
+  unsigned rounds = 5;               ///< each cell has its turn once a round
+  unsigned warmUp = 1;               ///< frames before each turn's timed ones, not timed
+  unsigned repeats = 1;              ///< timed frames a turn
+  double timeLimitS = 60;            ///< a frame that takes longer ends its cell: status timeout
+};
+
+/// Throws kUsage with "file:line:column: key: what is wrong; what would be right". Checks every key (those of [plot] too,
+/// which the report reads), axes and values against the list of axes, and that the reference is one of the cells.
+Sweep readSweep(const std::filesystem::path& path);
+
+}  // namespace tessera::harness
