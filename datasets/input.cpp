@@ -4,6 +4,7 @@
 
 #include "datasets/attribute.h"
 #include "datasets/generators.h"
+#include "datasets/installed-mesh.h"
 #include "datasets/scene-file.h"
 #include "datasets/text.h"
 #include "host/error.h"
@@ -24,6 +25,8 @@ void setSize(Scene& scene, std::uint32_t width, std::uint32_t height) {
 }  // namespace
 
 Source loadSource(const std::string& source, const std::filesystem::path& folder, const AttributeRequest& attribute) {
+  if (source.starts_with(kInstalledMesh))
+    return {readMesh(installedMesh(source.substr(kInstalledMesh.size())), attribute), false};
   if (!source.starts_with(kGenerate)) return {readMesh(folder / source, attribute), false};
   const std::string spec = source.substr(kGenerate.size());
   if (!attribute.name.empty() && !attribute.isCoordinate()) failAttribute(source, attribute.name, kCoordinates);
@@ -33,8 +36,8 @@ Source loadSource(const std::string& source, const std::filesystem::path& folder
 Scene loadInput(const std::string& input, std::uint32_t width, std::uint32_t height,
                 const AttributeRequest& attribute) {
   const std::filesystem::path path = input;
-  const bool generated = input.starts_with(kGenerate);
-  const std::string extension = generated ? "" : lowerCase(path.extension().string());
+  const bool generated = input.starts_with(kGenerate), installed = input.starts_with(kInstalledMesh);
+  const std::string extension = generated || installed ? "" : lowerCase(path.extension().string());
   Scene scene;
   setSize(scene, width, height);
   if (extension == ".toml") return readSceneFile(path, width, height, attribute);
@@ -46,7 +49,9 @@ Scene loadInput(const std::string& input, std::uint32_t width, std::uint32_t hei
                     scene.attribute.empty() ? std::vector<std::string>{} : std::vector{scene.attributeName});
     return scene;
   }
-  scene.name = generated ? input.substr(kGenerate.size()) : path.stem().string();
+  scene.name = generated   ? input.substr(kGenerate.size())
+               : installed ? input.substr(kInstalledMesh.size())
+                           : path.stem().string();
   const Source source = loadSource(input, "", attribute);
   append(scene, source.mesh);
   setCoordinates(scene, attribute);

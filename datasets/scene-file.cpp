@@ -1,10 +1,7 @@
 #include "datasets/scene-file.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
-#include <toml++/toml.h>
 
-#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
@@ -14,70 +11,23 @@
 #include "datasets/attribute.h"
 #include "datasets/camera.h"
 #include "datasets/text.h"
+#include "datasets/toml-table.h"
 #include "host/error.h"
 
 namespace tessera {
 namespace {
 
-/// One table of the file, with what is needed to say where something is wrong.
-class Table {
- public:
-  Table(const std::string& file, const toml::table& table, std::string_view name,
-        std::initializer_list<std::string_view> keys)
-      : file_(file), table_(table) {
-    for (const auto& [key, node] : table)
-      if (std::ranges::find(keys, key.str()) == keys.end())
-        fail(key.source(),
-             fmt::format("{} has no key '{}'; {} would be right", name, key.str(), fmt::join(keys, ", ")));
+std::optional<Matrix> readMatrix(const TomlTable& table, std::string_view key) {
+  const auto values = table.numbers(key, 16);
+  if (!values) return std::nullopt;
+  Matrix matrix;
+  for (std::size_t i = 0; i < 16; ++i) {
+    matrix[i] = static_cast<float>((*values)[i]);
+    if (!std::isfinite(matrix[i]))
+      table.refuse(key, *table.find(key), fmt::format("{} is beyond float32", (*values)[i]));
   }
-
-  bool has(std::string_view key) const { return table_.contains(key); }
-  const toml::node* find(std::string_view key) const { return table_.get(key); }
-  const toml::node& need(std::string_view key, std::string_view what) const {
-    const toml::node* const node = find(key);
-    if (!node) fail(table_.source(), fmt::format("{} is missing: {}", key, what));
-    return *node;
-  }
-  [[noreturn]] void fail(const toml::source_region& where, std::string_view wrong) const {
-    failUsage(fmt::format("{}:{}:{}: {}", file_, where.begin.line, where.begin.column, wrong));
-  }
-
-  /// `count` finite numbers, or nothing where the key is not there.
-  std::optional<std::vector<double>> numbers(std::string_view key, std::size_t count) const {
-    const toml::node* const node = find(key);
-    if (!node) return std::nullopt;
-    const toml::array* const array = node->as_array();
-    std::vector<double> values;
-    if (array)
-      for (const toml::node& element : *array)
-        if (element.is_number() && std::isfinite(*element.value<double>())) values.push_back(*element.value<double>());
-    if (!array || array->size() != count || values.size() != count)
-      fail(node->source(), fmt::format("{}: {} finite numbers in brackets would be right", key, count));
-    return values;
-  }
-  std::optional<double> number(std::string_view key) const {
-    const toml::node* const node = find(key);
-    if (!node) return std::nullopt;
-    if (!node->is_number() || !std::isfinite(*node->value<double>()))
-      fail(node->source(), fmt::format("{}: a finite number would be right", key));
-    return node->value<double>();
-  }
-  std::optional<Matrix> matrix(std::string_view key) const {
-    const auto values = numbers(key, 16);
-    if (!values) return std::nullopt;
-    Matrix matrix;
-    for (std::size_t i = 0; i < 16; ++i) {
-      matrix[i] = static_cast<float>((*values)[i]);
-      if (!std::isfinite(matrix[i]))
-        fail(find(key)->source(), fmt::format("{}: {} is beyond float32", key, (*values)[i]));
-    }
-    return matrix;
-  }
-
- private:
-  const std::string& file_;
-  const toml::table& table_;
-};
+  return matrix;
+}
 
 /// Positions: ((m0 x + m1 y) + m2 z) + m3, each component, float32. Normals by the inverse transpose.
 void applyMatrix(Mesh& mesh, const Matrix& m) {
@@ -100,11 +50,11 @@ void applyMatrix(Mesh& mesh, const Matrix& m) {
 /// Appends the mesh of one [[mesh]]; true if it fills clip space as it is.
 bool addMesh(Scene& scene, const std::string& file, const toml::table& table, const std::filesystem::path& folder,
              const AttributeRequest& attribute) {
-  const Table mesh(file, table, "[[mesh]]", {"source", "matrix"});
+  const TomlTable mesh(file, table, "[[mesh]]", {"source", "matrix"});
   const toml::node& source = mesh.need("source", "a path relative to this file, or generate:NAME");
   const auto text = source.value<std::string>();
   if (!text) mesh.fail(source.source(), "source: a string would be right");
-  const auto matrix = mesh.matrix("matrix");
+  const auto matrix = readMatrix(mesh, "matrix");
   if (matrix && !((*matrix)[12] == 0 && (*matrix)[13] == 0 && (*matrix)[14] == 0 && (*matrix)[15] == 1))
     mesh.fail(mesh.find("matrix")->source(), "matrix: a last row of 0, 0, 0, 1 would be right");
   Source loaded = [&]() -> Source {
@@ -120,8 +70,8 @@ bool addMesh(Scene& scene, const std::string& file, const toml::table& table, co
 }
 
 Matrix readCamera(const std::string& file, const toml::table& table, std::uint32_t width, std::uint32_t height) {
-  const Table camera(file, table, "[camera]", {"matrix", "eye", "target", "up", "fov", "near", "far"});
-  if (const auto matrix = camera.matrix("matrix")) {
+  const TomlTable camera(file, table, "[camera]", {"matrix", "eye", "target", "up", "fov", "near", "far"});
+  if (const auto matrix = readMatrix(camera, "matrix")) {
     if (table.size() > 1)
       camera.fail(table.source(),
                   "[camera] has matrix and other keys; matrix alone, or eye and target, would be right");
@@ -156,14 +106,8 @@ Matrix readCamera(const std::string& file, const toml::table& table, std::uint32
 Scene readSceneFile(const std::filesystem::path& path, std::uint32_t width, std::uint32_t height,
                     const AttributeRequest& attribute) {
   const std::string file = path.string();
-  toml::table root;
-  try {
-    root = toml::parse(readFile(path), file);
-  } catch (const toml::parse_error& error) {
-    const auto& at = error.source().begin;
-    failUsage(fmt::format("{}:{}:{}: {}", file, at.line, at.column, error.description()));
-  }
-  const Table top(file, root, "a scene", {"size", "mesh", "camera"});
+  const toml::table root = parseToml(file, readFile(path));
+  const TomlTable top(file, root, "a scene", {"size", "mesh", "camera"});
   Scene scene;
   scene.name = path.stem().string();
   if (const auto size = top.numbers("size", 2)) {
