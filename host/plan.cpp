@@ -69,6 +69,8 @@ class Planner {
     note("setup: drop between samples", between,
          between ? "a piece without a sample in its box need not be binned"
                  : "asked to go without (between-samples, plan)");
+    const bool compact = choice_.take("compact", {"off"}) == "on";
+    note("setup: compact", compact, compact ? "asked for (compact)" : "later passes skip empty slots");
     choice_.take("wide", {"native", "two-word"});
   }
 

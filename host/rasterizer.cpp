@@ -40,6 +40,7 @@ class FrameRun {
     frame_.plan = std::move(plan);
     commit_ = &axisValue("commit", value("commit"));
     binning_ = value("binning");
+    compact_ = value("compact") == "on";
     tile_ = binning_ == "none" ? kBlock : static_cast<std::uint32_t>(std::stoul(value("tile")));
   }
 
@@ -112,7 +113,7 @@ class FrameRun {
     if (frame_.plan.attribute) passes_.write("attribute", scene_.attribute);
     passes_.buffer("counters", 8 * kernelCounterCount());
     for (const char* field :
-         {"triangleCount", "triangleBase", "extraCapacity", "itemCapacity", "extraCount", "itemCount", "entryCapacity",
+         {"triangleCount", "triangleBase", "extraCapacity", "itemCapacity", "slotCount", "itemCount", "entryCapacity",
           "queueCapacity", "maskWords", "entryBegin", "entryRange", "loadFrame", "commitPass", "scanCount", "scanTop"})
       passes_.set(field, 0u);
   }
@@ -238,7 +239,7 @@ class FrameRun {
     largestBin_ = slots();  // aabb-scan, bitmask: a tile goes through them all
     return binning_ != "bitmask" || binMask();
   }
-  std::uint64_t slots() const { return std::uint64_t{passes_.get("triangleCount")} + passes_.get("extraCount"); }
+  std::uint64_t slots() const { return passes_.get("slotCount"); }
 
   std::vector<std::uint32_t> readCounters() {
     return passes_.read<std::uint32_t>("counters", 2 * kernelCounterCount());
@@ -265,9 +266,10 @@ class FrameRun {
       passes_.overElements("setup", triangles);
       const auto words = readCounters();
       const std::uint64_t extraCount = count(words, "extraPieces"), itemCount = count(words, "items");
-      passes_.set("extraCount", static_cast<std::uint32_t>(extraCount));
+      const std::uint64_t slots = compact_ ? count(words, "pieces") : triangles + extraCount;
+      passes_.set("slotCount", static_cast<std::uint32_t>(slots));
       passes_.set("itemCount", static_cast<std::uint32_t>(itemCount));
-      work_ = triangles + extraCount + itemCount;
+      work_ = slots + itemCount;
       if (extraCount <= extras && itemCount <= items) return true;
       extras = std::max(extras, extraCount);
       items = std::max(items, itemCount);
@@ -486,17 +488,19 @@ class FrameRun {
     keep("transform", "vertex, clip x y z w", 4, passes_.read<std::uint32_t>("clipSpace", 4 * scene_.vertexCount()));
     constexpr std::size_t words = kPieceBytes / 4;
     auto pieces = passes_.read<std::uint32_t>("pieces", words * slots());
-    // An empty slot holds its id and nothing else; the extras are in the order in which lanes came.
+    // An empty slot holds its id and nothing else; the extras, and all where slots are compact, are in the order in which
+    // lanes came.
+    const std::size_t placed = compact_ ? 0 : passes_.get("triangleCount");
     std::vector<std::array<std::uint32_t, words>> extras;
     for (std::size_t i = 0; i < slots(); ++i) {
       const auto piece = std::span(pieces).subspan(words * i, words);
       if (piece[words - 1] == kNoTriangle) std::ranges::fill(piece, kNoTriangle);
-      if (i < passes_.get("triangleCount")) continue;
+      if (i < placed) continue;
       std::ranges::copy(piece, extras.emplace_back().begin());
     }
     std::ranges::sort(extras);
     if (!extras.empty())
-      std::memcpy(pieces.data() + words * passes_.get("triangleCount"), extras.data(), extras.size() * kPieceBytes);
+      std::memcpy(pieces.data() + words * placed, extras.data(), extras.size() * kPieceBytes);
     keep("setup", "piece, x0 y0 x1 y1 x2 y2 z0 z1 z2 id", words, std::move(pieces));
   }
 
@@ -516,6 +520,7 @@ class FrameRun {
   Frame frame_;
   const AxisValue* commit_ = nullptr;
   std::string binning_;
+  bool compact_ = false;
   std::uint32_t tile_ = kBlock, tilesX_ = 0, tilesY_ = 0;
   Band band_{};
   std::vector<Batch> batches_;

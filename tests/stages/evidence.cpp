@@ -106,6 +106,22 @@ const Evidence kEvidence{
          CHECK(count(off, "betweenSamples") == 0);
          CHECK(count(off, "pieces") == count(on_, "pieces") + count(on_, "betweenSamples"));
        }}}},
+    {"compact",
+     {{"on",
+       [] {
+         // Each tile goes through all slots: no more of them than pieces are left.
+         const auto back = [](const char* compact) {
+           return on(sphere(), {{"cull", "back"}, {"binning", "aabb-scan"}, {"compact", compact}, {"counters", "work"}});
+         };
+         const Frame on_ = back("on"), off = back("off");
+         CHECK(count(on_, "visited") * on_.counters.at("submitted") == count(off, "visited") * count(on_, "pieces"));
+         CHECK(on_.image.ids == off.image.ids);
+       }},
+      {"off",
+       [] {
+         const Frame frame = on(sphere(), {{"cull", "back"}, {"compact", "off"}, {"binning", "aabb-scan"}, {"counters", "work"}});
+         CHECK(count(frame, "visited") % frame.counters.at("submitted") == 0);
+       }}}},
     {"binning",
      {{"none",
        [] {
