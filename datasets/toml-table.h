@@ -33,6 +33,8 @@ class TomlTable {
       : file_(file), table_(table), path_(std::move(path)) {}
 
   const toml::table& table() const { return table_; }
+  const std::string& file() const { return file_; }
+  const std::string& path() const { return path_; }
   bool has(std::string_view key) const { return table_.contains(key); }
   const toml::node* find(std::string_view key) const { return table_.get(key); }
   const toml::node& need(std::string_view key, std::string_view what) const;

@@ -1,1 +1,143 @@
 #include "experiments/harness/cells.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "datasets/random.h"
+
+namespace tessera::harness {
+namespace {
+
+constexpr std::string_view kKernel = "kernel:";
+
+bool hasAll(const Variant& asked, const Variant& values) {
+  return std::ranges::all_of(values.values(),
+                             [&](const auto& value) { return asked.get(value.first) == value.second; });
+}
+
+/// A cell without its place: what it is made of.
+Cell cellOf(const Sweep& sweep, const Labels& labels) {
+  Cell cell;
+  cell.labels = labels;
+  for (const auto& [name, value] : labels) {
+    if (!name.starts_with(kKernel)) {
+      cell.asked.set(name, value);
+      continue;
+    }
+    const std::string stage = name.substr(kKernel.size());
+    const SweptKernel& kernel = *std::ranges::find(sweep.kernels, stage, &SweptKernel::stage);
+    const auto place = std::ranges::find(kernel.texts, value) - kernel.texts.begin();
+    if (!value.empty()) cell.kernels[stage] = kernel.files[static_cast<std::size_t>(place)];
+  }
+  return cell;
+}
+
+/// A word for sh.
+std::string quoted(const std::string& text) {
+  constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./:=,+@%-";
+  if (!text.empty() && text.find_first_not_of(kPlain) == std::string::npos) return text;
+  std::string word = "'";
+  for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return word + "'";
+}
+
+/// FNV-1a (Fowler, Noll and Vo): the same on every machine, as std::hash is not.
+std::uint64_t hashOf(std::string_view text) {
+  std::uint64_t hash = 0xcbf29ce484222325u;
+  for (const unsigned char c : text) hash = (hash ^ c) * 0x100000001b3u;
+  return hash;
+}
+
+}  // namespace
+
+std::vector<Cell> cells(const Sweep& sweep) {
+  std::vector<Cell> variants;
+  for (const Labels& labels : combinations(sweep)) variants.push_back(cellOf(sweep, labels));
+  const auto reference =
+      std::ranges::find_if(variants, [&](const Cell& cell) { return hasAll(cell.asked, sweep.reference); });
+  if (reference != variants.end()) reference->reference = true;
+
+  std::vector<Cell> all;
+  std::size_t group = 0;
+  const auto addGroup = [&](const std::string& device, std::size_t scene, Size size, unsigned threads) {
+    const auto add = [&](Cell cell, bool twin) {
+      cell.number = all.size();
+      cell.scene = scene;
+      cell.size = size;
+      cell.device = device;
+      cell.threads = threads;
+      cell.group = group;
+      cell.reference &= !twin;
+      cell.twin = twin;
+      all.push_back(std::move(cell));
+    };
+    for (const Cell& cell : variants) {
+      add(cell, false);
+      if (cell.reference) add(cell, true);
+    }
+    ++group;
+  };
+  for (const std::string& device : sweep.devices)
+    for (std::size_t scene = 0; scene < sweep.scenes.size(); ++scene)
+      for (const Size size : sweep.sizes) {
+        if (device != "cpu") {
+          addGroup(device, scene, size, 0);
+          continue;
+        }
+        for (const unsigned threads : sweep.threads) addGroup(device, scene, size, threads);
+      }
+  return all;
+}
+
+std::vector<Job> jobs(const Sweep& sweep, const std::vector<Cell>& cells) {
+  std::vector<Job> jobs;
+  for (const Cell& cell : cells) {
+    if (jobs.empty() || jobs.back().scene != cell.scene || jobs.back().device != cell.device)
+      jobs.push_back({sweep.scenes[cell.scene].name + "@" + cell.device, cell.scene, cell.device, {}});
+    jobs.back().cells.push_back(cell.number);
+  }
+  return jobs;
+}
+
+std::string variantName(const Sweep& sweep, const Cell& cell) {
+  std::vector<std::string> parts;
+  for (const SweptAxis& axis : sweptAxes(sweep))
+    if (const auto found = cell.labels.find(axis.axis); found != cell.labels.end())
+      parts.push_back(fmt::format("{}={}", axis.axis, found->second.empty() ? "own" : found->second));
+  return fmt::format("{}", fmt::join(parts, " "));
+}
+
+std::string cellName(const Sweep& sweep, const Cell& cell) {
+  std::string name =
+      fmt::format("{} {}x{} {}", sweep.scenes[cell.scene].name, cell.size.width, cell.size.height, cell.device);
+  if (cell.threads != 0) name += fmt::format(" {} thread{}", cell.threads, cell.threads == 1 ? "" : "s");
+  if (const std::string variant = variantName(sweep, cell); !variant.empty()) name += ", " + variant;
+  return cell.twin ? name + " (again)" : name;
+}
+
+std::string cellCommand(const Sweep& sweep, const Cell& cell) {
+  const SweepScene& scene = sweep.scenes[cell.scene];
+  // Not to be taken for an option.
+  std::string command = "tessera render " + quoted(scene.text.starts_with('-') ? "./" + scene.text : scene.text);
+  command += fmt::format(" --size {}x{} --device {}", cell.size.width, cell.size.height, quoted(cell.device));
+  if (cell.threads != 0) command += fmt::format(" --threads {}", cell.threads);
+  for (const Axis& axis : axes())
+    if (cell.asked.has(axis.name)) command += " --set " + quoted(axis.name + "=" + cell.asked.get(axis.name));
+  for (const auto& [stage, file] : cell.kernels)
+    command += " --kernel " + quoted(stage + "=" + cell.labels.at(std::string(kKernel) + stage));
+  if (!scene.attribute.name.empty()) command += " --attribute " + quoted(scene.attribute.name);
+  if (const auto& range = scene.attribute.range) command += fmt::format(" --range {},{}", range->least, range->most);
+  return command + fmt::format(" --repeat {} --error --json -", sweep.rounds * sweep.repeats);
+}
+
+std::vector<std::size_t> turnOrder(std::vector<std::size_t> cells, std::uint64_t seed, const std::string& job,
+                                   unsigned round) {
+  Random jobs(Random(seed).bits() ^ hashOf(job));
+  Random random(jobs.bits() + round);
+  for (std::size_t i = cells.size(); i > 1; --i) std::swap(cells[i - 1], cells[random.bits() % i]);
+  return cells;
+}
+
+}  // namespace tessera::harness

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <cstddef>
-#include <map>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -13,22 +13,22 @@ namespace tessera::harness {
 /// One variant of one scene at one size on one device. Its place in cells() is its number in journal and rows.
 struct Cell {
   std::size_t number = 0;
-  std::size_t scene = 0;    ///< of Sweep::scenes
+  std::size_t scene = 0;  ///< of Sweep::scenes
   Size size;
   std::string device;
-  unsigned threads = 0;     ///< 0 where the device is not the CPU
-  Variant asked;            ///< set and swept axes
-  KernelFiles kernels;      ///< user's kernels; a stage's own is not in it
-  std::map<std::string, std::string> labels;  ///< `asked`, and "kernel:STAGE" -> the file as written, for rows
-  bool reference = false;   ///< the one of its group (same scene, device, size, threads) that others are divided by
-  bool twin = false;        ///< the reference once more: A/A. Follows its reference in cells()
-  std::size_t group = 0;    ///< cells that are compared with each other have the same
+  unsigned threads = 0;    ///< 0 where the device is not the CPU
+  Variant asked;           ///< set and swept axes
+  KernelFiles kernels;     ///< user's kernels; a stage's own is not in it
+  Labels labels;           ///< `asked` and kernels, for rows
+  bool reference = false;  ///< the one of its group (same scene, device, size, threads) that others are divided by
+  bool twin = false;       ///< the reference once more: A/A. Follows its reference in cells()
+  std::size_t group = 0;   ///< cells that are compared with each other have the same
 };
 
 /// Cells that are interleaved with each other, on one device and scene, all sizes and numbers of threads: what one
 /// machine has to do in one go.
 struct Job {
-  std::string name;             ///< "SCENE@DEVICE"
+  std::string name;  ///< "SCENE@DEVICE"
   std::size_t scene = 0;
   std::string device;
   std::vector<std::size_t> cells;  ///< numbers
@@ -37,13 +37,16 @@ struct Job {
 /// Devices, then scenes, sizes, threads, then the product of the axes and kernels, the last of which turns fastest.
 std::vector<Cell> cells(const Sweep& sweep);
 std::vector<Job> jobs(const Sweep& sweep, const std::vector<Cell>& cells);
+/// What varies, as the cell has it: "tile=8 binning=exact"; "" where nothing does.
+std::string variantName(const Sweep& sweep, const Cell& cell);
 /// "scene 1024x1024 cpu, tile=8 binning=exact": for messages.
 std::string cellName(const Sweep& sweep, const Cell& cell);
-/// The `tessera render` line that does what the cell does.
+/// The `tessera render` line, for sh in the sweep's folder, that renders what the cell does, as often.
 std::string cellCommand(const Sweep& sweep, const Cell& cell);
 
 /// The order of a round: a permutation of `cells`, the same for the same seed, job and round (Fisher and Yates, with
 /// datasets/random.h).
-std::vector<std::size_t> turnOrder(std::vector<std::size_t> cells, std::uint64_t seed, const std::string& job, unsigned round);
+std::vector<std::size_t> turnOrder(std::vector<std::size_t> cells, std::uint64_t seed, const std::string& job,
+                                   unsigned round);
 
 }  // namespace tessera::harness

@@ -1,1 +1,457 @@
 #include "experiments/harness/sweep-file.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <openssl/evp.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+
+#include "datasets/generators.h"
+#include "datasets/installed-mesh.h"
+#include "datasets/text.h"
+#include "datasets/toml-table.h"
+#include "experiments/harness/axis-values.h"
+#include "experiments/harness/report-keys.h"
+#include "host/error.h"
+#include "host/stages.h"
+#include "host/user-kernel.h"
+
+namespace tessera::harness {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMaxCells = 100'000;
+constexpr std::int64_t kMaxRounds = 1000, kMaxFrames = 1000, kMaxThreads = 4096;
+
+std::string sha256(std::string_view text) {
+  std::array<unsigned char, 32> digest{};
+  if (EVP_Digest(text.data(), text.size(), digest.data(), nullptr, EVP_sha256(), nullptr) != 1)
+    fail("SHA-256: libcrypto failed");
+  return fmt::format("{:02x}", fmt::join(digest, ""));
+}
+
+/// The table at `key`, of which the file chooses the keys; empty where there is none.
+TomlTable section(const TomlTable& top, std::string_view key) {
+  static const toml::table kNone;
+  const toml::node* const node = top.find(key);
+  if (node && !node->is_table()) top.refuse(key, *node, fmt::format("[{}] would be right", key));
+  return {top.file(), node ? *node->as_table() : kNone, fmt::format("{}.", key)};
+}
+
+/// The tables of [[key]].
+std::vector<const toml::table*> sections(const TomlTable& top, std::string_view key) {
+  const toml::node* const node = top.find(key);
+  if (!node) return {};
+  if (!node->is_array_of_tables()) top.refuse(key, *node, fmt::format("[[{}]] would be right", key));
+  std::vector<const toml::table*> tables;
+  for (const toml::node& element : *node->as_array()) tables.push_back(element.as_table());
+  return tables;
+}
+
+template <typename T>
+void addOnce(const TomlTable& table, std::string_view key, const toml::node& node, std::vector<T>& values, T value) {
+  if (std::ranges::find(values, value) != values.end()) table.refuse(key, node, "is there twice; once would be right");
+  values.push_back(std::move(value));
+}
+
+std::string textOf(const TomlTable& table, std::string_view key, const toml::node& node, std::string_view what) {
+  const auto text = node.value_exact<std::string>();
+  if (!text) table.refuse(key, node, fmt::format("{} would be right", what));
+  return *text;
+}
+
+/// What `action` throws, said at the node.
+template <typename Action>
+auto at(const TomlTable& table, std::string_view key, const toml::node& node, const Action& action) {
+  try {
+    return action();
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::kUsage) throw;
+    table.refuse(key, node, error.what());
+  }
+}
+
+// ---- scenes
+
+/// The input as loadInput takes it. Whether the file can be read shows when it is loaded.
+std::string readInput(const TomlTable& table, std::string_view key, const toml::node& node, const fs::path& folder) {
+  const std::string text = textOf(table, key, node, "an input as tessera render takes it, in quotes,");
+  constexpr std::string_view kGenerate = "generate:";
+  if (text.starts_with(kGenerate)) {
+    at(table, key, node, [&] { return parseGenerator(std::string_view(text).substr(kGenerate.size())).generator; });
+    return text;
+  }
+  if (text.starts_with(kInstalledMesh)) {
+    at(table, key, node, [&] { return installedMesh(std::string_view(text).substr(kInstalledMesh.size())); });
+    return text;
+  }
+  const fs::path path = (folder / text).lexically_normal();
+  const auto known = {".obj", ".off", ".ply", ".stl", ".toml", ".replay"};
+  if (std::ranges::find(known, lowerCase(path.extension().string())) == known.end())
+    table.refuse(key, node,
+                 fmt::format("'{}': generate:NAME, mesh:NAME or a file that ends in {} would be right", text,
+                             fmt::join(known, " ")));
+  std::error_code ignored;
+  if (!fs::is_regular_file(path, ignored)) table.refuse(key, node, fmt::format("{}: no such file", path.string()));
+  return path.string();
+}
+
+AttributeRequest readAttribute(const TomlTable& scene, bool generated) {
+  AttributeRequest request;
+  if (const auto name = scene.line("attribute")) request.name = *name;
+  if (generated && !request.name.empty() && !request.isCoordinate())
+    scene.refuse("attribute", *scene.find("attribute"),
+                 fmt::format("a generator has no '{}'; x, y or z would be right", request.name));
+  const auto range = scene.numbers("range", 2);
+  if (!range) return request;
+  const toml::node& node = *scene.find("range");
+  if (request.name.empty())
+    scene.refuse("range", node, "there is no attribute for it; attribute = \"z\" would be right");
+  request.range = {static_cast<float>((*range)[0]), static_cast<float>((*range)[1])};
+  if (!std::isfinite(request.range->least) || !std::isfinite(request.range->most) ||
+      request.range->least == request.range->most)
+    scene.refuse("range", node, "two different numbers within float32 would be right");
+  return request;
+}
+
+/// Names become those of folders and files.
+bool isSceneName(std::string_view name) {
+  const auto good = [](unsigned char c) { return std::isalnum(c) || c == '-' || c == '_' || c == '.'; };
+  return !name.empty() && name.size() <= 100 && name[0] != '.' && name[0] != '-' && std::ranges::all_of(name, good);
+}
+
+std::vector<SweepScene> readScenes(const TomlTable& top, const fs::path& folder) {
+  top.need("scenes", "[scenes] with a line name = \"INPUT\" each would be right");
+  const TomlTable table = section(top, "scenes");
+  std::vector<SweepScene> scenes;
+  for (const auto& [key, node] : table.entries()) {
+    const std::string name(key.str());
+    if (!isSceneName(name))
+      table.refuseKey(key,
+                      "a scene's name has up to 100 letters, digits, dots, hyphens and underscores, "
+                      "and begins with a letter, a digit or an underscore");
+    SweepScene scene{.name = name, .input = {}, .text = {}, .attribute = {}, .x = {}};
+    if (const toml::table* const fields = node.as_table()) {
+      const TomlTable entry(top.file(), *fields, "a scene", {"source", "x", "attribute", "range"},
+                            "scenes." + name + ".");
+      const toml::node& source = entry.need("source", "an input as tessera render takes it would be right");
+      scene.input = readInput(entry, "source", source, folder);
+      scene.text = *source.value<std::string>();
+      scene.attribute = readAttribute(entry, scene.text.starts_with("generate:"));
+      scene.x = entry.number("x");
+    } else {
+      scene.input = readInput(table, name, node, folder);
+      scene.text = *node.value<std::string>();
+    }
+    scenes.push_back(std::move(scene));
+  }
+  if (scenes.empty()) top.refuse("scenes", *top.find("scenes"), "at least one scene would be right");
+  return scenes;
+}
+
+// ---- lists of the top level
+
+std::vector<Size> readSizes(const TomlTable& table) {
+  constexpr std::string_view kWhat = "a list of edges, or of [width, height], in pixels,";
+  const toml::array* const list = table.list("sizes", kWhat);
+  std::vector<Size> sizes;
+  if (!list) return sizes;
+  for (const toml::node& node : *list) {
+    const auto extent = [&](const toml::node& number) {
+      const auto value = number.value_exact<std::int64_t>();
+      if (!value || *value < 1 || *value > kMaxExtent)
+        table.refuse("sizes", number, fmt::format("a whole number of pixels from 1 to {} would be right", kMaxExtent));
+      return static_cast<std::uint32_t>(*value);
+    };
+    const toml::array* const pair = node.as_array();
+    if (pair && pair->size() != 2) table.refuse("sizes", node, "[width, height] would be right");
+    const Size size = pair ? Size{extent((*pair)[0]), extent((*pair)[1])} : Size{extent(node), extent(node)};
+    addOnce(table, "sizes", node, sizes, size);
+  }
+  return sizes;
+}
+
+std::vector<std::string> readDevices(const TomlTable& top) {
+  const toml::array* const list = top.list("devices", "a list such as [\"cpu\", \"vulkan\"]");
+  if (!list) return {"cpu"};
+  std::vector<std::string> devices;
+  for (const toml::node& node : *list) {
+    const std::string name = textOf(top, "devices", node, "a device's name in quotes");
+    const bool known = name == "cpu" || name == "vulkan" || (name.starts_with("vulkan:") && name.size() > 7);
+    // It becomes a part of a folder's name.
+    if (!known || name.find_first_of("/\r\n") != std::string::npos)
+      top.refuse("devices", node,
+                 fmt::format("no device '{}'; cpu, vulkan, vulkan:N or vulkan:NAME would be right", name));
+    addOnce(top, "devices", node, devices, name);
+  }
+  return devices;
+}
+
+std::vector<unsigned> readThreads(const TomlTable& top) {
+  const toml::array* const list = top.list("threads", "a list of numbers of threads");
+  if (!list) return {0};
+  std::vector<unsigned> threads;
+  for (const toml::node& node : *list) {
+    const auto value = node.value_exact<std::int64_t>();
+    if (!value || *value < 0 || *value > kMaxThreads)
+      top.refuse("threads", node, fmt::format("a whole number from 0 (all cores) to {} would be right", kMaxThreads));
+    addOnce(top, "threads", node, threads, static_cast<unsigned>(*value));
+  }
+  return threads;
+}
+
+// ---- what varies
+
+Variant readVariant(const TomlTable& table) {
+  Variant variant;
+  for (const TomlTable::Entry& entry : table.entries()) variant.set(entry.key.str(), readAxisValue(table, entry));
+  return variant;
+}
+
+void refuseSet(const TomlTable& table, const toml::key& key, const Variant& set) {
+  if (set.has(key.str())) table.refuseKey(key, "is in [set], too; one of the two would be right");
+}
+
+std::vector<SweptAxis> readAxes(const TomlTable& table, const Variant& set) {
+  std::vector<SweptAxis> swept;
+  for (const TomlTable::Entry& entry : table.entries()) {
+    swept.push_back({std::string(entry.key.str()), readAxisValues(table, entry)});
+    refuseSet(table, entry.key, set);
+  }
+  return swept;
+}
+
+std::vector<SweptKernel> readKernels(const TomlTable& table, const fs::path& folder) {
+  std::vector<SweptKernel> kernels;
+  for (const auto& [key, node] : table.entries()) {
+    if (std::ranges::find(stages(), key.str(), &Stage::name) == stages().end()) {
+      std::vector<std::string> names;
+      for (const Stage& stage : stages()) names.push_back(stage.name);
+      table.refuseKey(key, fmt::format("no such stage; there are {}", fmt::join(names, ", ")));
+    }
+    SweptKernel kernel{std::string(key.str()), {}, {}};
+    for (const toml::node& element : *table.list(key.str(), "a list such as [\"\", \"mine.comp\"]")) {
+      const std::string text = textOf(table, key.str(), element, "a file's name, or \"\" for the stage's own kernel,");
+      const fs::path file = text.empty() ? fs::path() : (folder / text).lexically_normal();
+      std::error_code ignored;
+      if (!text.empty() && !fs::is_regular_file(file, ignored))
+        table.refuse(key.str(), element, fmt::format("{}: no such file", file.string()));
+      if (!text.empty()) at(table, key.str(), element, [&] { return languageOf(file); });
+      addOnce(table, key.str(), element, kernel.files, file);
+      kernel.texts.push_back(text);
+    }
+    kernels.push_back(std::move(kernel));
+  }
+  return kernels;
+}
+
+std::vector<Variant> readAlso(const TomlTable& top, const Variant& set) {
+  std::vector<Variant> also;
+  for (const toml::table* const one : sections(top, "also")) {
+    const TomlTable table(top.file(), *one, "also.");
+    for (const TomlTable::Entry& entry : table.entries()) refuseSet(table, entry.key, set);
+    also.push_back(readVariant(table));
+  }
+  return also;
+}
+
+std::vector<LeaveOut> readLeaveOut(const TomlTable& top, const Sweep& sweep) {
+  Sweep product = sweep;  // [[also]] is outside of it
+  product.also.clear();
+  const std::vector<SweptAxis> swept = sweptAxes(product);
+  std::vector<LeaveOut> all;
+  for (const toml::table* const one : sections(top, "leave-out")) {
+    const TomlTable table(top.file(), *one, "leave-out.");
+    LeaveOut leaveOut;
+    for (const TomlTable::Entry& entry : table.entries())
+      leaveOut.emplace_back(entry.key.str(), readChosen(table, entry, swept));
+    if (leaveOut.empty()) top.fail(one->source(), "leave-out: leaves out everything; an axis = value would be right");
+    all.push_back(std::move(leaveOut));
+  }
+  return all;
+}
+
+Variant readReference(const TomlTable& top, const Sweep& sweep) {
+  const TomlTable table = section(top, "reference");
+  std::vector<SweptAxis> swept = sweptAxes(sweep);
+  std::erase_if(swept, [](const SweptAxis& axis) { return axis.axis.starts_with("kernel:"); });
+  Variant reference;
+  for (const TomlTable::Entry& entry : table.entries()) {
+    const auto values = readChosen(table, entry, swept);
+    if (values.size() != 1) table.refuse(entry.key.str(), entry.node, "one value would be right");
+    reference.set(entry.key.str(), values.front());
+  }
+  return reference;
+}
+
+Variant readTruth(const TomlTable& top) {
+  const TomlTable table = section(top, "truth");
+  std::vector<std::string> names;
+  for (const Axis& axis : axes())
+    if (axis.kind() == AxisKind::kImage && axis.name != "shade")
+      names.push_back(axis.name);  // the oracle has no colours
+  for (const TomlTable::Entry& entry : table.entries())
+    if (std::ranges::find(names, entry.key.str()) == names.end())
+      table.refuseKey(entry.key,
+                      fmt::format("does not change what is right; {} would be right", fmt::join(names, ", ")));
+  return readVariant(table);
+}
+
+// ---- counts
+
+bool hasAll(const Labels& labels, const Variant& values) {
+  return std::ranges::all_of(values.values(), [&](const auto& value) {
+    const auto found = labels.find(value.first);
+    return found != labels.end() && found->second == value.second;
+  });
+}
+
+void checkCells(const TomlTable& top, const Sweep& sweep) {
+  const toml::source_region& place = (top.has("axes") ? *top.find("axes") : *top.find("scenes")).source();
+  double product = 1;
+  for (const SweptAxis& axis : sweep.axes) product *= static_cast<double>(axis.values.size());
+  for (const SweptKernel& kernel : sweep.kernels) product *= static_cast<double>(kernel.files.size());
+  const double groups = static_cast<double>(sweep.scenes.size() * sweep.sizes.size()) *
+                        static_cast<double>(sweep.devices.size() * sweep.threads.size());
+  const double cells = groups * (product + static_cast<double>(sweep.also.size()));
+  if (cells > kMaxCells)
+    top.fail(place,
+             fmt::format("axes: {:.0f} cells before any is left out; at most {} would be right", cells, kMaxCells));
+  const std::vector<Labels> all = combinations(sweep);
+  std::set<Labels> seen;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (!seen.insert(all[i]).second) {
+      const std::size_t also = i - (all.size() - sweep.also.size());
+      top.fail(sections(top, "also")[also]->source(), "also: the sweep has this cell already; once would be right");
+    }
+  if (std::ranges::any_of(all, [&](const Labels& labels) { return hasAll(labels, sweep.reference); })) return;
+  if (const toml::node* const reference = top.find("reference"))
+    top.refuse("reference", *reference, "no cell has these values: leave-out takes them all; others would be right");
+  top.fail(place, "leave-out: no cell is left; fewer combinations would be right");
+}
+
+// ---- [quick]
+
+void readQuick(const TomlTable& top, Sweep& sweep, bool quick) {
+  if (quick && !top.has("quick"))
+    failUsage(fmt::format("{}: quick: there is no [quick] with the sizes and rounds of a quick run", top.file()));
+  if (!top.has("quick")) return;
+  section(top, "quick");
+  const TomlTable table(top.file(), *top.find("quick")->as_table(), "[quick]", {"sizes", "rounds", "repeats", "scenes"},
+                        "quick.");
+  Sweep changed = sweep;
+  changed.quick = true;
+  if (table.has("sizes")) changed.sizes = readSizes(table);
+  if (const auto rounds = table.whole("rounds", 1, kMaxRounds)) changed.rounds = static_cast<unsigned>(*rounds);
+  if (const auto repeats = table.whole("repeats", 1, kMaxFrames)) changed.repeats = static_cast<unsigned>(*repeats);
+  if (const toml::array* const list = table.list("scenes", "a list of names of [scenes]")) {
+    std::vector<std::string> names;
+    for (const toml::node& node : *list) {
+      const std::string name = textOf(table, "scenes", node, "a scene's name in quotes");
+      if (std::ranges::find(sweep.scenes, name, &SweepScene::name) == sweep.scenes.end())
+        table.refuse("scenes", node, fmt::format("no scene '{}' under [scenes]", name));
+      addOnce(table, "scenes", node, names, name);
+    }
+    std::erase_if(changed.scenes,
+                  [&](const SweepScene& scene) { return std::ranges::find(names, scene.name) == names.end(); });
+  }
+  if (quick) sweep = std::move(changed);
+}
+
+}  // namespace
+
+Sweep readSweep(const fs::path& path, bool quick) {
+  Sweep sweep;
+  sweep.path = fs::absolute(path).lexically_normal();
+  sweep.text = readFile(path);
+  sweep.sha256 = sha256(sweep.text);
+  const fs::path folder = sweep.path.parent_path();
+  const std::string file = path.string();
+  const toml::table root = parseToml(file, sweep.text);
+  const TomlTable top(file, root, "a sweep",
+                      {"title",     "question", "sizes",      "scenes", "axes",    "set",     "kernels",
+                       "leave-out", "also",     "reference",  "truth",  "devices", "threads", "rounds",
+                       "warm-up",   "repeats",  "time-limit", "seed",   "plot",    "quick",   "expect"});
+  top.need("title", "a line that names the sweep would be right");
+  top.need("question", "the question that it answers would be right");
+  sweep.title = *top.line("title");
+  sweep.question = *top.line("question");
+  top.need("sizes", "raster sizes in pixels, e.g. sizes = [1024], would be right");
+  sweep.sizes = readSizes(top);
+  sweep.scenes = readScenes(top, folder);
+  sweep.devices = readDevices(top);
+  sweep.threads = readThreads(top);
+  sweep.rounds = static_cast<unsigned>(top.whole("rounds", 1, kMaxRounds).value_or(sweep.rounds));
+  sweep.warmUp = static_cast<unsigned>(top.whole("warm-up", 0, kMaxFrames).value_or(sweep.warmUp));
+  sweep.repeats = static_cast<unsigned>(top.whole("repeats", 1, kMaxFrames).value_or(sweep.repeats));
+  sweep.seed = static_cast<std::uint64_t>(top.whole("seed", 0, INT64_MAX).value_or(1));
+  sweep.timeLimitS = top.number("time-limit").value_or(sweep.timeLimitS);
+  if (!(sweep.timeLimitS > 0)) top.refuse("time-limit", *top.find("time-limit"), "seconds above 0 would be right");
+
+  sweep.set = readVariant(section(top, "set"));
+  sweep.axes = readAxes(section(top, "axes"), sweep.set);
+  sweep.kernels = readKernels(section(top, "kernels"), folder);
+  sweep.also = readAlso(top, sweep.set);
+  sweep.leaveOut = readLeaveOut(top, sweep);
+  sweep.reference = readReference(top, sweep);
+  sweep.truth = readTruth(top);
+  checkCells(top, sweep);
+  if (top.has("plot")) {
+    section(top, "plot");
+    checkPlot({file,
+               *top.find("plot")->as_table(),
+               "[plot]",
+               {"curve", "against", "x-label", "heat", "error", "figure"},
+               "plot."},
+              sweep);
+  }
+  for (const toml::table* const one : sections(top, "expect"))
+    checkExpectation(
+        {file, *one, "[[expect]]", {"where", "scene", "status", "error", "truth_error", "counters"}, "expect."}, sweep);
+  readQuick(top, sweep, quick);
+  return sweep;
+}
+
+std::vector<SweptAxis> sweptAxes(const Sweep& sweep) {
+  std::vector<SweptAxis> swept = sweep.axes;
+  for (const Variant& cell : sweep.also)
+    for (const auto& [axis, value] : cell.values()) {
+      auto found = std::ranges::find(swept, axis, &SweptAxis::axis);
+      if (found == swept.end()) found = swept.insert(swept.end(), {axis, {}});
+      if (std::ranges::find(found->values, value) == found->values.end()) found->values.push_back(value);
+    }
+  for (const SweptKernel& kernel : sweep.kernels) swept.push_back({"kernel:" + kernel.stage, kernel.texts});
+  return swept;
+}
+
+std::vector<Labels> combinations(const Sweep& sweep) {
+  std::vector<SweptAxis> product = sweep.axes;
+  for (const SweptKernel& kernel : sweep.kernels) product.push_back({"kernel:" + kernel.stage, kernel.texts});
+  std::vector<Labels> all{sweep.set.values()};
+  for (const SweptAxis& axis : product) {
+    std::vector<Labels> more;
+    for (const Labels& labels : all)
+      for (const std::string& value : axis.values) more.emplace_back(labels)[axis.axis] = value;
+    all = std::move(more);
+  }
+  std::erase_if(all, [&](const Labels& labels) {
+    return std::ranges::any_of(sweep.leaveOut, [&](const LeaveOut& out) {
+      return std::ranges::all_of(out, [&](const auto& axis) {
+        return std::ranges::find(axis.second, labels.at(axis.first)) != axis.second.end();
+      });
+    });
+  });
+  for (const Variant& cell : sweep.also) {
+    Labels labels = sweep.set.values();
+    for (const auto& [axis, value] : cell.values()) labels[axis] = value;
+    for (const SweptKernel& kernel : sweep.kernels) labels["kernel:" + kernel.stage] = "";
+    all.push_back(std::move(labels));
+  }
+  return all;
+}
+
+}  // namespace tessera::harness

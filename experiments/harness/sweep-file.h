@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -15,11 +16,11 @@
 namespace tessera::harness {
 
 struct SweepScene {
-  std::string name;             ///< its key in [scenes]
-  std::string input;            ///< as loadInput takes it; a path is relative to the sweep's folder, and made absolute here
-  std::string text;             ///< the input as the file has it, for rows and commands
+  std::string name;   ///< its key in [scenes]
+  std::string input;  ///< as loadInput takes it; a path is relative to the sweep's folder, and made absolute here
+  std::string text;   ///< the input as the file has it, for rows and commands
   AttributeRequest attribute;
-  std::optional<double> x;      ///< the number that the scene stands for on plots, e.g. its triangles' area in pixels
+  std::optional<double> x;  ///< the number that the scene stands for on plots, e.g. its triangles' area in pixels
 };
 
 /// One axis of variation and its values, in the file's order.
@@ -30,6 +31,7 @@ struct SweptAxis {
 
 struct Size {
   std::uint32_t width = 0, height = 0;
+  bool operator==(const Size&) const = default;
 };
 
 /// A stage whose kernel varies: "" is the stage's own, others are files as `render --kernel` takes them.
@@ -42,12 +44,15 @@ struct SweptKernel {
 /// Combinations that are not made: those that have one of the values for each of the axes named.
 using LeaveOut = std::vector<std::pair<std::string, std::vector<std::string>>>;
 
+/// What a cell is made of: axis -> value, set and swept, and "kernel:STAGE" -> the file as written ("": its own).
+using Labels = std::map<std::string, std::string>;
+
 struct Sweep {
-  std::filesystem::path path;   ///< of the file
-  std::string text;             ///< of the file
-  std::string sha256;           ///< of the text
+  std::filesystem::path path;  ///< of the file
+  std::string text;            ///< of the file
+  std::string sha256;          ///< of the text
   std::string title, question;
-  std::uint64_t seed = 1;       ///< of the order in which cells take their turns
+  std::uint64_t seed = 1;  ///< of the order in which cells take their turns
   std::vector<SweepScene> scenes;
   std::vector<Size> sizes;
   std::vector<std::string> devices{"cpu"};
@@ -56,16 +61,27 @@ struct Sweep {
   std::vector<SweptAxis> axes;
   std::vector<SweptKernel> kernels;
   std::vector<LeaveOut> leaveOut;
-  Variant reference;                 ///< with `set`: the cell whose time the others are divided by
-  Variant truth;                     ///< image axes of the picture that `truth_error` is measured from; empty: none
-  unsigned rounds = 5;               ///< each cell has its turn once a round
-  unsigned warmUp = 1;               ///< frames before each turn's timed ones, not timed
-  unsigned repeats = 1;              ///< timed frames a turn
-  double timeLimitS = 60;            ///< a frame that takes longer ends its cell: status timeout
+  std::vector<Variant> also;  ///< axes of one more cell each, outside the product; with `set`
+  Variant reference;          ///< the first cell that has these is the one whose time the others are divided by
+  Variant truth;              ///< image axes of the picture that `truth_error` is measured from; empty: none
+  unsigned rounds = 5;        ///< each cell has its turn once a round
+  unsigned warmUp = 1;        ///< frames before each turn's timed ones, not timed
+  unsigned repeats = 1;       ///< timed frames a turn
+  double timeLimitS = 60;     ///< a frame that takes longer ends its cell: status timeout
+  bool quick = false;         ///< [quick] has taken the place of scenes, sizes, rounds and repeats
 };
 
-/// Throws kUsage with "file:line:column: key: what is wrong; what would be right". Checks every key (those of [plot] too,
-/// which the report reads), axes and values against the list of axes, and that the reference is one of the cells.
-Sweep readSweep(const std::filesystem::path& path);
+/// Throws kUsage with "file:line:column: key: what is wrong; what would be right". Checks every key (those of [plot]
+/// and
+/// [[expect]] too, which others read), axes and values against the list of axes, and that the reference is one of the
+/// cells. `quick`: as [quick] says, which has to be there.
+Sweep readSweep(const std::filesystem::path& path, bool quick = false);
+
+/// All that varies, each with its values: [axes] in the file's order, axes that only [[also]] has, kernels as
+/// "kernel:STAGE".
+std::vector<SweptAxis> sweptAxes(const Sweep& sweep);
+
+/// The cells of one group: the product without what is left out, its last axis turning fastest, then [[also]].
+std::vector<Labels> combinations(const Sweep& sweep);
 
 }  // namespace tessera::harness
