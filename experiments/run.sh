@@ -1,0 +1,44 @@
+#!/usr/bin/env bash
+# Runs experiments, or those named, into out/experiments: sweep, what must hold, report. With --quick small ones into out/experiments-quick,
+# whose times mean nothing. With --keep the rows and the figure become the experiment's own. One that was stopped goes on.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")"
+
+tessera=${TESSERA:-$PWD/../build/release/tessera}
+python=${TESSERA_PYTHON:-$PWD/../.tools/report/bin/python}
+say() { printf '%s\n' "experiments: $*" >&2; }
+die() { say "$*"; exit 2; }
+
+quick=() out=../out/experiments keep=false names=()
+for argument; do
+  case $argument in
+    --quick) quick=(--quick) out=../out/experiments-quick ;;
+    --keep) keep=true ;;
+    -*) die "no option $argument; --quick and --keep are there" ;;
+    *) [[ -f $argument/sweep.toml ]] || die "no experiment '$argument'; there are: $(echo */sweep.toml | sed 's:/sweep.toml::g')"
+       names+=("$argument") ;;
+  esac
+done
+$keep && ((${#quick[@]})) && die "--keep: rows of --quick are not kept, their times mean nothing"
+((${#names[@]})) || names=($(echo */sweep.toml | sed 's:/sweep.toml::g'))
+
+failed=()
+for name in "${names[@]}"; do
+  folder=$out/$name
+  # A quick run is done in seconds, and begins anew; what another version of the sweep file left is put aside, not removed.
+  if [[ -d $folder ]] && { ((${#quick[@]})) || ! cmp -s "$name/sweep.toml" "$folder/sweep.toml"; }; then
+    rm -rf "$folder.before" && mv "$folder" "$folder.before"
+  fi
+  mkdir -p "$out"
+  resume=()
+  [[ ! -f $folder/journal.jsonl ]] || resume=(--resume)
+  say "$name"
+  "$tessera" sweep "$name/sweep.toml" --out "$folder" "${quick[@]}" "${resume[@]}" >"$folder.txt" || { cat "$folder.txt"; failed+=("$name"); continue; }
+  "$python" report/expect.py "$folder" || failed+=("$name")
+  "$tessera" report "$folder"
+  if $keep; then
+    cp "$folder/rows.jsonl" "$name/results.jsonl"
+    cp "$folder/report/figures/figure.svg" "$name/figure.svg"
+  fi
+done
+((${#failed[@]} == 0)) || { say "failed: ${failed[*]}"; exit 5; }
