@@ -1,26 +1,16 @@
-// Frames of the CPU device: first dispatch to finished visibility buffer.
-#include <benchmark/benchmark.h>
+// Frames: first dispatch to finished visibility buffer.
 #include <fmt/format.h>
 
 #include <map>
-#include <memory>
 
 #include "bench/scenes.h"
-#include "host/cpu/cpu-device.h"
-#include "host/error.h"
-#include "host/rasterizer.h"
+#include "bench/suite.h"
 
 namespace {
 
 using namespace tessera;
 
-struct Machine {
-  KernelCache kernels;
-  std::unique_ptr<Device> device = makeCpuDevice();
-  Rasterizer rasterizer{*device, kernels};
-};
-
-void frame(benchmark::State& state, Machine& machine, const bench::BenchScene& what, std::uint32_t size) {
+void frame(benchmark::State& state, bench::Machine& machine, const bench::BenchScene& what, std::uint32_t size) {
   const Scene scene = bench::load(what, size, size);
   const FrameOptions inPlace{.readBack = false};
   machine.rasterizer.render(scene, {}, inPlace);  // compiles, and grows buffers to their sizes
@@ -32,29 +22,19 @@ void frame(benchmark::State& state, Machine& machine, const bench::BenchScene& w
   }
   using benchmark::Counter;
   for (const auto& [stage, ms] : stages) state.counters[stage + "_ms"] = Counter(ms, Counter::kAvgIterations);
-  const double pixels = double{1} * size * size;
-  state.counters["triangles/s"] = Counter(static_cast<double>(scene.triangles.size()), Counter::kIsIterationInvariantRate);
-  state.counters["pixels/s"] = Counter(pixels, Counter::kIsIterationInvariantRate);
+  state.counters["triangles/s"] = bench::rate(scene.triangles.size());
+  state.counters["pixels/s"] = bench::rate(std::size_t{size} * size);
 }
 
 }  // namespace
 
-int main(int argc, char** argv) try {
-  benchmark::Initialize(&argc, argv);
-  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return static_cast<int>(ExitCode::kUsage);
-  Machine machine;
-  for (const auto& [name, value] : bench::provenance(machine.device->info(), machine.kernels))
-    benchmark::AddCustomContext(name, value);  // Debian's library says of itself that it is a debug build
-  for (const bench::BenchScene& scene : bench::scenes())
-    for (const std::uint32_t size : {512u, 2048u})
-      benchmark::RegisterBenchmark(fmt::format("frame/scene:{}/size:{}", scene.name, size).c_str(),
-                                   [&machine, scene, size](benchmark::State& state) { frame(state, machine, scene, size); })
-          ->UseManualTime()
-          ->Unit(benchmark::kMillisecond);
-  benchmark::RunSpecifiedBenchmarks();
-  benchmark::Shutdown();
-  return 0;
-} catch (const tessera::Error& error) {
-  fmt::print(stderr, "frames: {}\n", error.what());
-  return static_cast<int>(error.code());
+int main(int argc, char** argv) {
+  return bench::runSuite("frames", argc, argv, [](bench::Machine& machine) {
+    for (const bench::BenchScene& scene : bench::scenes())
+      for (const std::uint32_t size : {512u, 2048u})
+        benchmark::RegisterBenchmark(fmt::format("frame/scene:{}/size:{}", scene.name, size).c_str(),
+                                     [&machine, scene, size](benchmark::State& state) { frame(state, machine, scene, size); })
+            ->UseManualTime()
+            ->Unit(benchmark::kMillisecond);
+  });
 }

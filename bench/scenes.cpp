@@ -29,15 +29,15 @@ Scene load(const BenchScene& scene, std::uint32_t width, std::uint32_t height) {
   return loadInput(scene.input, width, height);
 }
 
-std::vector<std::pair<std::string, std::string>> provenance(const DeviceInfo& cpu, const KernelCache& kernels) {
+std::vector<std::pair<std::string, std::string>> provenance(const DeviceInfo& device, const KernelCache& kernels) {
   double load[1] = {-1};
   getloadavg(load, 1);
   const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
   return {{"tessera_build", TESSERA_BUILD_TYPE},
           {"git", TESSERA_GIT},
           {"compiler", TESSERA_COMPILER},
-          {"cpu", cpu.name},
-          {"threads", std::to_string(cpu.threads)},
+          {device.api == "cpu" ? "cpu" : "device", device.name},
+          {"threads", std::to_string(device.threads)},
           {"slang", kernels.slangc().version},
           {"kernel_compiler", kernels.cxx()},
           {"load_average", fmt::format("{:.2f}", load[0])},

@@ -22,7 +22,7 @@ const std::vector<BenchScene>& scenes();
 /// Throws kUsage, naming the scenes there are, or saying where the real mesh comes from.
 Scene load(const BenchScene& scene, std::uint32_t width, std::uint32_t height);
 
-/// Build, commit, processor, threads and compilers, as names and values.
-std::vector<std::pair<std::string, std::string>> provenance(const DeviceInfo& cpu, const KernelCache& kernels);
+/// Build, commit, device, threads (0 on Vulkan) and compilers, as names and values.
+std::vector<std::pair<std::string, std::string>> provenance(const DeviceInfo& device, const KernelCache& kernels);
 
 }  // namespace tessera::bench

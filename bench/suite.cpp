@@ -1,0 +1,55 @@
+#include "bench/suite.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string_view>
+
+#include "bench/scenes.h"
+#include "host/cpu/cpu-device.h"
+#include "host/error.h"
+#include "host/vulkan/vulkan-device.h"
+
+namespace tessera::bench {
+namespace {
+
+constexpr std::string_view kDevice = "--device=";
+
+std::unique_ptr<Device> open(std::string_view name) {
+  if (name == "cpu") return makeCpuDevice();
+  VulkanOptions options;
+  if (name.starts_with("vulkan:")) options.select = name.substr(7);
+  if (name != "vulkan" && options.select.empty())
+    failUsage(fmt::format("{}{}: no such device; cpu, vulkan, vulkan:N or vulkan:NAME would be", kDevice, name));
+  return makeVulkanDevice(options);
+}
+
+}  // namespace
+
+benchmark::Counter rate(std::size_t count) {
+  return benchmark::Counter(static_cast<double>(count), benchmark::Counter::kIsIterationInvariantRate);
+}
+
+int runSuite(const char* program, int argc, char** argv, const std::function<void(Machine&)>& add) try {
+  benchmark::Initialize(&argc, argv);
+  std::string_view device = "cpu";
+  for (int i = 1; i < argc; ++i) {
+    if (!std::string_view(argv[i]).starts_with(kDevice)) continue;
+    device = std::string_view(argv[i]).substr(kDevice.size());
+    std::move(argv + i + 1, argv + argc, argv + i);
+    --argc, --i;
+  }
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return static_cast<int>(ExitCode::kUsage);
+  Machine machine(open(device));
+  for (const auto& [name, value] : provenance(machine.device->info(), machine.kernels))
+    benchmark::AddCustomContext(name, value);  // Debian's library says of itself that it is a debug build
+  add(machine);
+  benchmark::RunSpecifiedBenchmarks();
+  benchmark::Shutdown();
+  return 0;
+} catch (const Error& error) {
+  fmt::print(stderr, "{}: {}\n", program, error.what());
+  return static_cast<int>(error.code());
+}
+
+}  // namespace tessera::bench
