@@ -14,6 +14,7 @@ enum class ExitCode : int {
   kOverflow = 3,     ///< a capacity was exceeded under overflow=error
   kUnsupported = 4,  ///< the device cannot run this variant; the message names the missing feature
   kDifference = 5,   ///< compare or parity found a difference
+  kInterrupted = 130,  ///< sweep was stopped by Ctrl-C or SIGTERM; what it had is kept
 };
 
 /// `what()` is one line: file, place, what is wrong, what would be right.

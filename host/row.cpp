@@ -29,6 +29,10 @@ std::string makeRunId(std::chrono::system_clock::time_point now) {
                      0x8000u | bits(14), bits(16), random());
 }
 
+std::string utcText(std::chrono::system_clock::time_point now) {
+  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::chrono::system_clock::to_time_t(now)));
+}
+
 std::string cpuName() {
   std::ifstream file("/proc/cpuinfo");
   for (std::string line; std::getline(file, line);)
@@ -63,25 +67,37 @@ Json timeJson(const Run& run) {
           {"iqr", total.iqr},  {"stages", stages},       {"clock", run.device.timeClock}};
 }
 
+// JSON has no infinity.
+void putFinite(Json& json, const char* name, double value) {
+  if (std::isfinite(value)) json[name] = value;
+}
+
+Json differenceJson(const Difference& difference) {
+  Json json = {{"pixels", difference.pixels},           {"coverage_mismatch", difference.coverage},
+               {"id_mismatch", difference.id},          {"depth_mismatch", difference.depth},
+               {"hit_count_mismatch", difference.hits}, {"attribute_mismatch", difference.attribute}};
+  putFinite(json, "depth_max_ulp", difference.depthMaxUlp);
+  putFinite(json, "depth_max_abs", difference.depthMaxAbs);
+  putFinite(json, "psnr", difference.psnr);
+  return json;
+}
+
 Json errorJson(const Run& run) {
-  Json json = Json::object();
-  // JSON has no infinity.
-  const auto put = [&](const char* name, double value) {
-    if (std::isfinite(value)) json[name] = value;
-  };
-  if (run.difference) {
-    const Difference& difference = *run.difference;
-    json = {{"pixels", difference.pixels},           {"coverage_mismatch", difference.coverage},
-            {"id_mismatch", difference.id},          {"depth_mismatch", difference.depth},
-            {"hit_count_mismatch", difference.hits}, {"attribute_mismatch", difference.attribute}};
-    put("depth_max_ulp", difference.depthMaxUlp);
-    put("depth_max_abs", difference.depthMaxAbs);
-    put("psnr", difference.psnr);
-  }
+  Json json = run.difference ? differenceJson(*run.difference) : Json::object();
   if (run.hitCountNotOne) json["hit_count_not_one"] = *run.hitCountNotOne;
   if (run.attributeError) {
-    put("attribute_max", run.attributeError->max);
-    put("attribute_rms", run.attributeError->rms);
+    putFinite(json, "attribute_max", run.attributeError->max);
+    putFinite(json, "attribute_rms", run.attributeError->rms);
+  }
+  return json;
+}
+
+/// The attribute's error is from the picture that is held to be true, value by value.
+Json truthErrorJson(const Run& run) {
+  Json json = differenceJson(*run.truthDifference);
+  if (run.scene && !run.scene->attribute.empty()) {
+    putFinite(json, "attribute_max", run.truthDifference->attributeMax);
+    putFinite(json, "attribute_rms", run.truthDifference->attributeRms);
   }
   return json;
 }
@@ -109,7 +125,8 @@ Json provenanceJson(const Run& run, std::chrono::system_clock::time_point now) {
   if (run.device.correctnessOnly) json["correctness_only"] = true;  // a software driver: its times rank nothing
   json["os"] = osName();
   json["cpu"] = cpuName();
-  json["utc"] = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::chrono::system_clock::to_time_t(now)));
+  if (run.seed) json["seed"] = *run.seed;
+  json["utc"] = utcText(now);
   return json;
 }
 
@@ -159,6 +176,10 @@ std::string statusOf(ExitCode code) {
   return code == ExitCode::kOverflow ? "overflow" : code == ExitCode::kUnsupported ? "unsupported" : "error";
 }
 
+std::string differenceText(const Difference& difference) { return differenceJson(difference).dump(); }
+
+std::string utcText() { return utcText(std::chrono::system_clock::now()); }
+
 std::string rowText(const Run& run) {
   const auto now = std::chrono::system_clock::now();
   Json row = {{"schema_version", kRowSchemaVersion}, {"run_id", makeRunId(now)}};
@@ -171,6 +192,11 @@ std::string rowText(const Run& run) {
   if (!run.message.empty()) row["message"] = run.message;
   if (!run.samples.empty()) row["time_ns"] = timeJson(run);
   if (const Json error = errorJson(run); !error.empty()) row["error"] = error;
+  if (!run.truth.values().empty()) {
+    row["truth"] = run.truth.values();
+    if (run.truthDifference) row["truth_error"] = truthErrorJson(run);
+  }
+  if (!run.picture.empty()) row["picture"] = run.picture;
   if (!run.counters.empty()) row["counters"] = run.counters;
   if (run.peakBufferBytes != 0) row["memory"] = {{"peak_buffer_bytes", run.peakBufferBytes}};
   if (!run.plan.empty()) row["plan"] = planJson(run.plan);

@@ -17,11 +17,11 @@
 
 namespace tessera {
 
-inline constexpr int kRowSchemaVersion = 1;
+inline constexpr int kRowSchemaVersion = 2;
 
 /// What a run leaves behind. A member that is empty leaves its field out of the row.
 struct Run {
-  std::string status = "ok";  ///< ok, overflow, unsupported or error
+  std::string status = "ok";  ///< ok, overflow, unsupported, timeout or error
   std::string message;        ///< one line: why the status is not ok
   Variant variant;            ///< resolved by the plan where there is one, else as it was asked for
   const Scene* scene = nullptr;
@@ -38,6 +38,10 @@ struct Run {
   std::map<std::string, std::string> kernels;  ///< stage -> content hash
   std::map<std::string, std::pair<std::string, std::string>> kernelFiles;  ///< stage -> a user's file, its SHA-256
   std::uint64_t peakBufferBytes = 0;
+  Variant truth;                              ///< image axes of a picture that errors are also measured from
+  std::optional<Difference> truthDifference;  ///< from the oracle under these
+  std::string picture;                        ///< of the differences: a path
+  std::optional<std::uint64_t> seed;          ///< of the order in which a sweep's cells took their turns
 };
 
 /// Order statistics of a sample, linear between neighbours; nanoseconds. All 0 for an empty sample.
@@ -53,6 +57,11 @@ std::uint64_t coveredPixels(const Framebuffer& frame);
 /// The row's word for an error: "overflow", "unsupported" or "error".
 std::string statusOf(ExitCode code);
 
+/// The row's `error` of a difference alone: an object in JSON, of numbers. JSON has no infinity: what is not finite is
+/// left out.
+std::string differenceText(const Difference& difference);
+/// Now, as rows have it: "2026-11-23T09:26:00Z".
+std::string utcText();
 /// The row, without a line's end. Bytes of names that are not UTF-8 are replaced.
 std::string rowText(const Run& run);
 

@@ -31,9 +31,10 @@ ExitCode runCommand(int argc, char** argv) {
       "  tessera parity bunny.obj\n"
       "'tessera COMMAND --help' says more. Results go to stdout, messages to stderr.\n"
       "Exit codes: 0 done; 2 bad usage or input; 3 overflow under overflow=error; 4 the device cannot run\n"
-      "this variant; 5 compare or parity found a difference; 1 anything else.");
+      "this variant; 5 compare or parity found a difference; 130 a signal stopped sweep; 1 anything else.");
   const std::array commands{cli::addRender(app),  cli::addParity(app),   cli::addCompare(app), cli::addPlan(app),
-                            cli::addDevices(app), cli::addVariants(app), cli::addKernels(app)};
+                            cli::addDevices(app), cli::addVariants(app), cli::addKernels(app),
+                            cli::addSweep(app),   cli::addSweepWorker(app)};
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

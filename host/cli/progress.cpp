@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 
 namespace tessera::cli {
@@ -25,10 +26,12 @@ Progress::~Progress() {
   if (drawn_ && terminal_) fmt::print(stderr, "\r\033[K");
 }
 
-void Progress::at(std::size_t done, const std::string& what) {
+void Progress::at(std::size_t done, const std::string& what, std::optional<double> left) {
   const std::lock_guard lock(mutex_);
   done_ = done;
   what_ = what;
+  end_.reset();
+  if (left) end_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(*left));
 }
 
 void Progress::watch(std::stop_token stop) {
@@ -45,7 +48,10 @@ void Progress::draw() {
   if (total_ != 0) line += fmt::format(" {}/{}", done_, total_);
   if (!what_.empty()) line += fmt::format(" ({})", what_);
   line += fmt::format(", {:.0f} s", seconds);
-  if (done_ != 0 && done_ < total_) {
+  if (end_) {
+    const double left = std::chrono::duration<double>(*end_ - Clock::now()).count();
+    line += fmt::format(", about {:.0f} s left", std::max(left, 0.0));
+  } else if (done_ != 0 && done_ < total_) {
     const double left = seconds / static_cast<double>(done_) * static_cast<double>(total_ - done_);
     line += fmt::format(", about {:.0f} s left", left);
   }

@@ -5,6 +5,7 @@
 #include <condition_variable>
 #include <cstddef>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 
@@ -18,7 +19,9 @@ class Progress {
   ~Progress();
   Progress(const Progress&) = delete;
 
-  void at(std::size_t done, const std::string& what = "");  ///< `what` is being done now
+  /// `what` is being done now. `left`: seconds that the rest will take, where the caller knows better than by the share
+  /// that is done; counted down until the next call.
+  void at(std::size_t done, const std::string& what = "", std::optional<double> left = {});
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -33,6 +36,7 @@ class Progress {
   std::condition_variable_any wake_;
   std::string what_;
   std::size_t done_ = 0, total_ = 0;
+  std::optional<Clock::time_point> end_;  ///< as the caller expects it
   bool drawn_ = false;
   std::jthread watcher_;  ///< last, so that it ends before what it reads is gone
 };

@@ -15,15 +15,6 @@ bool approximates(const std::string& name, const std::string& value) {
   return !axis(name).values.empty() && axisValue(name, value).kind == AxisKind::kApproximate;
 }
 
-/// `asked` without its approximate values. Shading stays what it was, where it was such a value that brought it in.
-Variant exactVariant(const Variant& asked, const Variant& resolved) {
-  Variant exact;
-  for (const auto& [name, value] : asked.values())
-    if (!approximates(name, value)) exact.set(name, value);
-  exact.set("shade", resolved.get("shade"));
-  return exact;
-}
-
 std::string oracleLine(const Run& run) {
   const Difference& d = *run.difference;
   std::string text = "error against the oracle, pixels: ";
@@ -59,6 +50,14 @@ std::string attributeLine(const Run& run) {
 }
 
 }  // namespace
+
+Variant exactVariant(const Variant& asked, const Variant& resolved) {
+  Variant exact;
+  for (const auto& [name, value] : asked.values())
+    if (!approximates(name, value)) exact.set(name, value);
+  exact.set("shade", resolved.get("shade"));
+  return exact;
+}
 
 void measureAgainstOracle(Run& run, const Variant& asked, const Framebuffer& image, Rasterizer& rasterizer) {
   Oracle oracle(*run.scene, run.variant);

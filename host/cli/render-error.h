@@ -8,6 +8,9 @@
 
 namespace tessera::cli {
 
+/// `asked` without its approximate values. Shading stays what it was, where it was such a value that brought it in.
+Variant exactVariant(const Variant& asked, const Variant& resolved);
+
 /// Sets run.difference: the image against the oracle under run.variant, and its colours against those of the same scene
 /// on the same device under `asked` without its approximate values.
 void measureAgainstOracle(Run& run, const Variant& asked, const Framebuffer& image, Rasterizer& rasterizer);

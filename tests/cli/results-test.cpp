@@ -31,7 +31,7 @@ TEST_CASE("Render writes images and a row and says what it did") {
   const std::string line = desk.read("row.json");
   CHECK(std::count(line.begin(), line.end(), '\n') == 1);
   const json row = json::parse(line);
-  CHECK(row["schema_version"] == 1);
+  CHECK(row["schema_version"] == 2);
   CHECK(row["status"] == "ok");
   CHECK(row["variant"]["tile"] == "8");
   CHECK(row["scene"]["triangles"] == 2);

@@ -1,0 +1,148 @@
+#include "experiments/harness/check.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "host/cli/common.h"
+#include "host/cli/measure.h"
+#include "host/cli/probe-text.h"
+#include "host/cli/render-error.h"
+#include "host/cli/table.h"
+#include "host/image.h"
+#include "host/probe.h"
+#include "host/stages.h"
+
+namespace tessera::harness {
+namespace {
+
+constexpr std::size_t kOracleBytes = std::size_t{512} << 20;  // of images kept; two are kept whatever they take
+
+Variant counting(Variant variant) {
+  variant.set("counters", "work");
+  return variant;
+}
+
+std::string imageText(const Variant& resolved) {
+  std::string text;
+  for (const char* const axis : {"cull", "fill", "interpolate", "sub-pixel"}) text += resolved.get(axis) + ' ';
+  return text;
+}
+
+/// A user's kernel of a stage that this plan leaves out is a refusal here, as it is of a frame.
+void compile(const Scene& scene, const Variant& asked, const DeviceInfo& device, KernelCache& kernels) {
+  for (const Variant& variant : {asked, counting(asked)})
+    kernels.getAll(kernelRequests(makePlan(scene, variant, device), kernels.files()));
+}
+
+std::string mismatches(const Difference& d) {
+  return fmt::format(
+      "differs from the oracle: of {} pixels coverage in {}, ids in {}, depth in {}, hits in {}, values in {}",
+      cli::grouped(d.pixels), cli::grouped(d.coverage), cli::grouped(d.id), cli::grouped(d.depth), cli::grouped(d.hits),
+      cli::grouped(d.attribute));
+}
+
+/// An implementation variant that differs: an error, but where the device's arithmetic promises nothing.
+void judge(Run& run, const CheckTools& tools) {
+  run.message = mismatches(*run.difference);
+  const Probe probe = probeDevice(tools.device, tools.kernels, cli::routeOf(run.device, run.variant));
+  if (!probe.passed()) run.message += "; the device's arithmetic fails its probe: " + cli::firstFailure(probe);
+  if (probe.passed() || probe.onlyFlushes()) run.status = "error";
+}
+
+bool hasMismatch(const std::optional<Difference>& difference) { return difference && !difference->equal(); }
+
+/// Of its own oracle where it differs from that, else of the one that is held to be true.
+void writePicture(Run& run, std::size_t number, const Framebuffer& image, const CheckTools& tools) {
+  const bool own = hasMismatch(run.difference);
+  if (!own && !hasMismatch(run.truthDifference)) return;
+  cli::Oracle& oracle = tools.oracles.of(*run.scene, own ? run.variant : joined(run.variant, run.truth));
+  Framebuffer picture;
+  picture.width = image.width;
+  picture.height = image.height;
+  picture.colour = differencePicture(oracle.expected(image), image);
+  run.picture = fmt::format("pictures/{}.png", number);
+  std::filesystem::create_directories(tools.folder / "pictures");
+  writeImage(tools.folder / run.picture, picture);
+}
+
+}  // namespace
+
+cli::Oracle& Oracles::of(const Scene& scene, const Variant& resolved) {
+  const std::string image = imageText(resolved);
+  const auto found = std::ranges::find_if(kept_, [&](const Kept& k) { return k.scene == &scene && k.image == image; });
+  if (found != kept_.end()) {
+    kept_.splice(kept_.begin(), kept_, found);
+    return *kept_.front().oracle;
+  }
+  const std::size_t bytes = std::size_t{scene.width} * scene.height * 16;  // depth, id, hits, value
+  std::size_t held = bytes;
+  for (const auto& kept : kept_) held += kept.bytes;
+  while (held > kOracleBytes && kept_.size() > 1) {
+    held -= kept_.back().bytes;
+    kept_.pop_back();
+  }
+  kept_.push_front({&scene, image, bytes, std::make_unique<cli::Oracle>(scene, resolved)});
+  return *kept_.front().oracle;
+}
+
+Variant joined(Variant variant, const Variant& more) {
+  for (const auto& [axis, value] : more.values()) variant.set(axis, value);
+  return variant;
+}
+
+bool variesFromRunToRun(const Variant& resolved) { return resolved.get("overflow") == "drop"; }
+
+std::string cellStatus(ExitCode code) {
+  return code == ExitCode::kUsage ? statusOf(ExitCode::kUnsupported) : statusOf(code);
+}
+
+Difference errorOf(const Scene& scene, const Variant& resolved, const Framebuffer& image, Oracles& oracles) {
+  cli::Oracle& oracle = oracles.of(scene, resolved);
+  oracle.holdColours(image.colour);  // it does not shade
+  return oracle.against(image);
+}
+
+double checkCell(Run& run, std::size_t number, const CheckTools& tools) {
+  const Scene& scene = *run.scene;
+  const Variant asked = run.variant;
+  const Plan plan = makePlan(scene, asked, run.device);
+  run.variant = plan.resolved;
+  run.plan = plan.entries;
+  compile(scene, asked, run.device, tools.kernels);
+
+  Rasterizer rasterizer(tools.device, tools.kernels);
+  Frame frame;
+  run.variant = asked;
+  tools.frame([&] { frame = cli::measure(run, rasterizer, tools.kernels, 0); });
+  run.peakBufferBytes = tools.device.peakBufferBytes();
+  Framebuffer& image = frame.image;
+
+  tools.frame([&] {
+    const Counters work = rasterizer.render(scene, asked, {.readBack = false, .countWork = true}).counters;
+    for (const CounterDoc& doc : counterDocs())
+      if (doc.work) run.counters[doc.name] = work.at(doc.name);
+  });
+  const auto begin = std::chrono::steady_clock::now();
+  tools.frame([&] { rasterizer.render(scene, asked, {.readBack = false}); });
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+
+  cli::measureError(run, image);
+  std::vector<glm::vec3> colours = image.colour;
+  if (!colours.empty() && isApproximate(run.variant)) {
+    const Variant exact = cli::exactVariant(asked, run.variant);
+    compile(scene, exact, run.device, tools.kernels);
+    tools.frame([&] { colours = rasterizer.render(scene, exact).image.colour; });
+  }
+  cli::Oracle& oracle = tools.oracles.of(scene, run.variant);
+  oracle.holdColours(std::move(colours));
+  run.difference = oracle.against(image);
+  if (!run.truth.values().empty())
+    run.truthDifference = errorOf(scene, joined(run.variant, run.truth), image, tools.oracles);
+  writePicture(run, number, image, tools);
+  if (!run.difference->equal() && !isApproximate(run.variant)) judge(run, tools);
+  return seconds;
+}
+
+}  // namespace tessera::harness

@@ -1,0 +1,58 @@
+// A cell's first frames: what it draws, held against the oracle, and what a row says of it beside its times.
+#pragma once
+
+#include <functional>
+#include <list>
+#include <memory>
+
+#include "experiments/harness/request.h"
+#include "host/cli/parity-oracle.h"
+#include "host/kernel-cache.h"
+#include "host/rasterizer.h"
+#include "host/row.h"
+
+namespace tessera::harness {
+
+/// The oracle's images of one job, each rendered once as long as there is room for it.
+class Oracles {
+ public:
+  cli::Oracle& of(const Scene& scene, const Variant& resolved);
+
+ private:
+  struct Kept {
+    const Scene* scene;
+    std::string image;
+    std::size_t bytes;
+    std::unique_ptr<cli::Oracle> oracle;
+  };
+  std::list<Kept> kept_;  ///< the one used last is in front
+};
+
+/// What a check needs. `frame` renders under the time limit.
+struct CheckTools {
+  Device& device;  ///< of its own for each check, so that its peak of bytes is of this cell
+  KernelCache& kernels;
+  Oracles& oracles;
+  std::filesystem::path folder;  ///< of the results
+  std::function<void(const std::function<void()>&)> frame;
+};
+
+/// Fills `run`, which holds scene, variant as asked for, device and tools: plan, counters, error, picture, and status
+/// and message where an implementation variant differs from the oracle. Returns the seconds of a frame, kernels in
+/// place. Throws Error as Rasterizer does.
+double checkCell(Run& run, std::size_t number, const CheckTools& tools);
+
+/// Whether two frames of it may differ: what they are in error by is measured frame by frame.
+bool variesFromRunToRun(const Variant& resolved);
+
+/// The error of one frame of such a variant.
+Difference errorOf(const Scene& scene, const Variant& resolved, const Framebuffer& image, Oracles& oracles);
+
+/// The row's word for what a cell ended by: settings that do not go together are as unsupported as a device that
+/// cannot.
+std::string cellStatus(ExitCode code);
+
+/// `variant` with the settings of `more` on top.
+Variant joined(Variant variant, const Variant& more);
+
+}  // namespace tessera::harness

@@ -1,0 +1,45 @@
+#include "experiments/harness/folder.h"
+
+#include <fmt/format.h>
+
+#include "host/error.h"
+
+namespace tessera::harness {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// As writeBeside() names them.
+bool isHalfFile(const fs::path& path) {
+  const std::string name = path.filename().string();
+  return name.ends_with(".tmp") && (name.starts_with("journal.jsonl.") || name.starts_with("rows.jsonl."));
+}
+
+}  // namespace
+
+std::optional<Record> recordOf(const fs::path& folder, bool resume) {
+  std::error_code ignored;
+  if (fs::exists(folder, ignored) && !fs::is_directory(folder, ignored))
+    failUsage(fmt::format("--out {}: is a file; the name of a folder would do", folder.string()));
+  if (!fs::exists(journalOf(folder), ignored)) {
+    for (const auto& entry : fs::directory_iterator(folder, ignored))
+      if (!isHalfFile(entry.path()))
+        failUsage(fmt::format("--out {}: holds {} and no sweep; a new or an empty folder would do", folder.string(),
+                              entry.path().filename().string()));
+    return {};
+  }
+  if (!resume)
+    failUsage(fmt::format("--out {}: holds a sweep already; --resume goes on with it, another folder begins anew",
+                          folder.string()));
+  return readJournal(folder);
+}
+
+void removeHalfFiles(const fs::path& folder) {
+  std::vector<fs::path> found;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder, ignored))
+    if (isHalfFile(entry.path())) found.push_back(entry.path());
+  for (const auto& path : found) fs::remove(path, ignored);
+}
+
+}  // namespace tessera::harness

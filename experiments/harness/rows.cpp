@@ -1,0 +1,108 @@
+#include "experiments/harness/rows.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <tuple>
+
+#include "host/error.h"
+#include "host/files.h"
+#include "host/row.h"
+
+namespace tessera::harness {
+namespace {
+
+std::vector<Sample> inOrder(std::vector<Sample> samples) {
+  std::ranges::sort(samples, {}, [](const Sample& s) { return std::tuple(s.round, s.repeat, s.session); });
+  return samples;
+}
+
+Json samplesJson(const std::vector<Sample>& samples) {
+  Json json{{"samples", Json::array()}, {"rounds", Json::array()}, {"sessions", Json::array()}};
+  for (const Sample& sample : samples) {
+    json["samples"].push_back(sample.times.totalNs);
+    json["rounds"].push_back(sample.round);
+    json["sessions"].push_back(sample.session);
+  }
+  return json;
+}
+
+Json timeJson(const CellRecord& cell, const std::vector<Sample>& samples, const std::string& clock) {
+  std::vector<FrameTimes> times;
+  for (const Sample& sample : samples) times.push_back(sample.times);
+  const Spread total = totalSpread(times);
+  Json json = samplesJson(samples);
+  json["median"] = total.median;
+  json["min"] = total.min;
+  json["iqr"] = total.iqr;
+  json["stages"] = Json::object();
+  for (const auto& [stage, median] : stageMedians(times)) json["stages"][stage] = median;
+  json["clock"] = clock;
+  if (!cell.again.empty()) json["again"] = samplesJson(inOrder(cell.again));
+  return json;
+}
+
+double medianOf(std::vector<double> values) {
+  std::ranges::sort(values);
+  const std::size_t half = values.size() / 2;
+  return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
+}
+
+/// Of variants that differ from run to run: lists of what each timed frame was in error by, and their medians in
+/// `error`.
+void putErrors(Json& row, const std::vector<Sample>& samples) {
+  Json lists = Json::object();
+  std::vector<std::string> fields;
+  for (const Sample& sample : samples)
+    if (sample.error.is_object())
+      for (const auto& [field, value] : sample.error.items())
+        if (field != "pixels" && std::ranges::find(fields, field) == fields.end()) fields.push_back(field);
+  for (const auto& field : fields) {
+    std::vector<double> values;
+    for (const Sample& sample : samples) {
+      lists[field].push_back(sample.error.is_object() ? sample.error.value(field, Json()) : Json());
+      if (lists[field].back().is_number()) values.push_back(lists[field].back());
+    }
+    const double median = medianOf(values);
+    if (const auto whole = static_cast<std::int64_t>(median); static_cast<double>(whole) == median)
+      row["error"][field] = whole;
+    else
+      row["error"][field] = median;
+  }
+  if (!lists.empty()) row["error_samples"] = lists;
+}
+
+Json rowOf(const Json& head, const CellRecord& cell) {
+  const std::vector<Sample> samples = inOrder(cell.samples);
+  Json checked = cell.row;
+  putErrors(checked, samples);
+  Json row = Json::object();
+  for (const auto& [field, value] : checked.items()) {
+    if (field == "provenance" || field == "clock") continue;
+    row[field] = value;
+    if (field != "run_id") continue;
+    row["command"] = head["command"];
+    row["sweep"] = head["sweep"];
+  }
+  if (!samples.empty()) row["time_ns"] = timeJson(cell, samples, checked.value("clock", ""));
+  row["provenance"] = checked["provenance"];
+  return row;
+}
+
+}  // namespace
+
+std::string rowsText(const Record& record) {
+  std::string text;
+  for (const auto& head : record.head["cells"])
+    if (const CellRecord& cell = record.cells.at(head["cell"]); !cell.row.is_null()) text += lineOf(rowOf(head, cell));
+  return text;
+}
+
+void deriveRows(const std::filesystem::path& folder) {
+  const std::filesystem::path path = folder / "rows.jsonl";
+  if (!writeBeside(path, rowsText(readJournal(folder))))
+    fail(fmt::format("{}: could not be written; the journal beside it is whole: --resume writes it once there is room",
+                     path.string()));
+}
+
+}  // namespace tessera::harness

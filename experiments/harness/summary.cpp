@@ -1,0 +1,115 @@
+#include "experiments/harness/summary.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "host/cli/table.h"
+#include "host/row.h"
+
+namespace tessera::harness {
+namespace {
+
+constexpr std::size_t kMostLines = 40;
+
+struct Line {
+  const Json* head;
+  const CellRecord* cell;
+  std::string status() const { return cell->row.is_null() ? "not run" : cell->row["status"].get<std::string>(); }
+};
+
+double medianTime(const CellRecord& cell) {
+  std::vector<FrameTimes> times;
+  for (const Sample& sample : cell.samples) times.push_back(sample.times);
+  return totalSpread(times).median;
+}
+
+/// Median over the rounds of time over the reference's time in the same round; of first repeats, which both have.
+double ratio(const CellRecord& cell, const CellRecord& reference) {
+  std::map<std::pair<unsigned, unsigned>, double> base;
+  for (const Sample& s : reference.samples) base[{s.round, s.repeat}] = static_cast<double>(s.times.totalNs);
+  std::vector<double> ratios;
+  for (const Sample& s : cell.samples)
+    if (const auto found = base.find({s.round, s.repeat}); found != base.end() && found->second > 0)
+      ratios.push_back(static_cast<double>(s.times.totalNs) / found->second);
+  if (ratios.empty()) return 0;
+  const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
+  std::ranges::nth_element(ratios, middle);
+  return *middle;
+}
+
+std::string errorText(const Json& row) {
+  const Json error = row.value("error", Json::object());
+  std::string text;
+  for (const auto& [field, name] : {std::pair{"coverage_mismatch", "coverage"},
+                                    {"id_mismatch", "ids"},
+                                    {"depth_mismatch", "depth"},
+                                    {"hit_count_mismatch", "hits"},
+                                    {"attribute_mismatch", "values"}})
+    if (const double count = error.value(field, 0.0); count > 0)
+      text += fmt::format("{}{} {:g}", text.empty() ? "" : ", ", name, count);
+  return text.empty() ? "none" : text;
+}
+
+/// Of the first cell, without what is swept.
+std::string groupName(const Line& first) {
+  const std::string name = first.head->at("name");
+  return name.substr(0, name.find(", "));
+}
+
+std::string groupTable(const std::vector<Line>& lines, const std::vector<std::string>& swept) {
+  const auto reference =
+      std::ranges::find_if(lines, [](const Line& l) { return l.head->at("sweep").at("reference").get<bool>(); });
+  std::vector<std::vector<std::string>> rows{swept};
+  for (const char* const heading : {"ms", "ratio", "error"}) rows[0].push_back(heading);
+  for (const Line& line : lines) {
+    const Json& sweep = line.head->at("sweep");
+    std::vector<std::string> row;
+    for (const auto& axis : swept) row.push_back(sweep["asked"].value(axis, "-"));
+    if (line.cell->samples.empty()) {
+      row.insert(row.end(), {line.status(), "-", "-"});
+    } else {
+      const bool twin = sweep["twin"];
+      row.push_back(cli::milliseconds(medianTime(*line.cell)));
+      row.push_back(reference == lines.end() ? "-" : fmt::format("{:.3f}", ratio(*line.cell, *reference->cell)));
+      row.push_back(twin ? "A/A" : errorText(line.cell->row));
+    }
+    rows.push_back(std::move(row));
+  }
+  return cli::table(rows);
+}
+
+}  // namespace
+
+std::string summaryOf(const Record& record, const std::filesystem::path& folder) {
+  std::map<std::string, std::size_t> counts;
+  std::map<std::size_t, std::vector<Line>> groups;
+  std::string notes;
+  for (const auto& head : record.head["cells"]) {
+    const Line line{&head, &record.cells.at(head["cell"])};
+    ++counts[line.status()];
+    groups[head["sweep"]["group"]].push_back(line);
+    if (const std::string message = line.cell->row.is_null() ? "" : line.cell->row.value("message", "");
+        !message.empty())
+      notes += fmt::format("{} ({}): {}: {}\n", head["cell"].get<std::size_t>(), head["name"].get<std::string>(),
+                           line.status(), message);
+  }
+  std::string text = fmt::format("{}: {} cells", record.head["sweep"]["title"].get<std::string>(),
+                                 cli::grouped(record.head["cells"].size()));
+  for (const auto& [status, count] : counts) text += fmt::format(", {} {}", count, status);
+  text += '\n' + notes;
+
+  const std::size_t tableLines = record.head["cells"].size() + 4 * groups.size();
+  if (tableLines <= kMostLines)
+    for (const auto& [number, lines] : groups) {
+      const Json& sweep = lines.front().head->at("sweep");
+      std::vector<std::string> swept;
+      for (const auto& axis : sweep["swept"]) swept.push_back(axis);
+      text += fmt::format("\n{}\n{}", groupName(lines.front()), groupTable(lines, swept));
+    }
+  return text + fmt::format("\nrows are in {}; tessera report {} makes the page\n", (folder / "rows.jsonl").string(),
+                            folder.string());
+}
+
+}  // namespace tessera::harness
