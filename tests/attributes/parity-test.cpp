@@ -44,11 +44,13 @@ CHECKED_PLACE_TEST_CASE("Values of random scenes have the oracle's bits", "[attr
                               {{"sub-pixel", "4"}, {"interpolate", "weights"}},
                               {{"sub-pixel", "6"}, {"interpolate", "plane"}},
                               {{"fill", "inclusive"}, {"clip", "on"}}};
+  // With bounds checks the first four, which index as the others do: each is a raster kernel more to compile.
+  const std::size_t count = machine.name() == CheckedCpu::kName ? 4 : std::size(variants);
   std::size_t values = 0, failures = 0;
   for (std::uint64_t seed = 0; seed < 120 && failures < 3; ++seed) {
     Scene scene = randomScene(seed);
     addValues(scene, seed);
-    const Variant& variant = variants[seed % std::size(variants)];
+    const Variant& variant = variants[seed % count];
     CAPTURE(scene.name, seed, variant.text());
     const reference::Result oracle = reference::render(scene, imageOf(variant));
     const Frame frame = machine.render(scene, variant);

@@ -66,21 +66,11 @@ TEST_CASE("every value of an axis that a stage reads is in a kernel of it") {
   }
 }
 
-// Pairs of values compile to C++ for the random scenes of tests/parity.
-TEST_CASE("kernels compile to C++") {
-  KernelCache cache;
-  const std::vector<KernelRequest> kernels = coveringKernels(Route::kCpp, 1);
-  std::set<std::string> binaries;
-  for (const CompiledKernel& kernel : cache.getAll(kernels)) {
-    CHECK(std::filesystem::file_size(kernel.binary) > 0);
-    binaries.insert(kernel.hash);
-  }
-  CHECK(binaries.size() == kernels.size());
-}
-
+// Pairs of values compile to C++, and to SPIR-V whose exactness is checked there, too, for the random scenes of tests/parity; triples are
+// behind the label long.
 TEST_CASE("SPIR-V of Slang is exact and valid") {
   KernelCache cache;
-  CHECK(findings(cache, coveringKernels(Route::kSpirv, 2)) == std::vector<std::string>{});
+  CHECK(findings(cache, coveringKernels(Route::kSpirv, 1)) == std::vector<std::string>{});
 }
 
 TEST_CASE("SPIR-V by way of GLSL is exact and valid") {

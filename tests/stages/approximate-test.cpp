@@ -95,11 +95,14 @@ PLACE_TEST_CASE("Float32 edges are wrong near edges only and somewhere", "[appro
 
 PLACE_TEST_CASE("Float32 edges do not depend on tile or traversal or binning", "[approximate]") {
   const Scene scene = loadInput("generate:slivers?count=300", 512, 512);
+  std::size_t turn = 0;
   for (const char* const edge : {"float32-plane", "float32-difference"}) {
     const Framebuffer first = machine.render(scene, {{"edge", edge}}).image;
     for (const Variant& variant : {Variant{{"tile", "8"}}, {{"traversal", "pixel"}}, {{"traversal", "hierarchical"}},
                                    {{"traversal", "scanline"}}, {{"size-class", "on"}}, {{"binning", "none"}},
                                    {{"binning", "bitmask"}, {"tile", "16"}}}) {
+      // Each has a kernel of its own to compile: on Vulkan the two edges take turns (seven variants, so that none is left out).
+      if (machine.info().api != "cpu" && ++turn % 2 == 0) continue;
       Variant with = variant;
       with.set("edge", edge);
       INFO(with.text());
