@@ -150,6 +150,22 @@ struct KernelCache::State {
     return sha256(all);
   }
 
+  /// Where a kernel is kept, and what it is made from.
+  struct Place {
+    CompileSettings settings;
+    std::map<fs::path, std::string> sources;
+    std::string hash;
+    fs::path entry;
+  };
+  Place placeOf(const KernelRequest& request) {
+    Place place{.settings = settings(request), .sources = {}, .hash = {}, .entry = {}};
+    const fs::path source = request.file.empty() ? place.settings.slangSources / request.source : request.file;
+    place.sources = slangSources(place.settings.slangSources, source, request.modules.text());
+    place.hash = key(request, place.settings, place.sources);
+    place.entry = options.folder / place.hash.substr(0, 2) / place.hash;
+    return place;
+  }
+
   /// Compiles beside the entry and renames the files into it, the interface last. Two that do so at once rename the
   /// same bytes; should a compiler be less deterministic than that, the hashes tell and the entry is built again.
   KernelInterface fill(const KernelRequest& request, const CompileSettings& settings,
@@ -186,13 +202,13 @@ KernelCache::KernelCache(Options options) {
 
 KernelCache::~KernelCache() = default;
 
-CompiledKernel KernelCache::get(const KernelRequest& request) {
-  const CompileSettings settings = state_->settings(request);
-  const fs::path source = request.file.empty() ? settings.slangSources / request.source : request.file;
-  const auto sources = slangSources(settings.slangSources, source, request.modules.text());
-  const std::string hash = state_->key(request, settings, sources);
-  const fs::path entry = state_->options.folder / hash.substr(0, 2) / hash;
+bool KernelCache::has(const KernelRequest& request) {
+  const State::Place place = state_->placeOf(request);
+  return readEntry(place.entry, request.route).has_value();
+}
 
+CompiledKernel KernelCache::get(const KernelRequest& request) {
+  const auto [settings, sources, hash, entry] = state_->placeOf(request);
   CompiledKernel kernel{request.stage, binaryEntry(request),
                         request.route, entry / binaryName(request.route),
                         hash,          {},

@@ -55,6 +55,8 @@ class KernelCache {
   ~KernelCache();
   KernelCache(const KernelCache&) = delete;
 
+  /// Whether get() would find it compiled.
+  bool has(const KernelRequest& request);
   /// Compiles if it is not there. Throws kFailure with Slang's or the compiler's first message and the variant's name.
   CompiledKernel get(const KernelRequest& request);
   /// Compiles many on all cores; `progress(done, total)` may be empty.
