@@ -51,7 +51,7 @@ void applyMatrix(Mesh& mesh, const Matrix& m) {
 bool addMesh(Scene& scene, const std::string& file, const toml::table& table, const std::filesystem::path& folder,
              const AttributeRequest& attribute) {
   const TomlTable mesh(file, table, "[[mesh]]", {"source", "matrix"});
-  const toml::node& source = mesh.need("source", "a path relative to this file, or generate:NAME");
+  const toml::node& source = mesh.need("source", "a path relative to this file, generate:NAME or mesh:NAME");
   const auto text = source.value<std::string>();
   if (!text) mesh.fail(source.source(), "source: a string would be right");
   const auto matrix = readMatrix(mesh, "matrix");

@@ -197,7 +197,9 @@ std::string axesHelp() {
 }
 
 std::string inputHelp() {
-  std::string text = "Generators (INPUT is generate:NAME or generate:NAME?KEY=VALUE&KEY=VALUE):\n";
+  std::string text =
+      "An installed mesh: INPUT is mesh:NAME, e.g. mesh:refined_elephant (Debian's libcgal-demo has it)\n"
+      "Generators (INPUT is generate:NAME or generate:NAME?KEY=VALUE&KEY=VALUE):\n";
   for (const auto& doc : generatorDocs())
     text += fmt::format("  {:<10} {}\n  {:<10} {}\n", doc.name, doc.makes, "", doc.parameters);
   return text;
