@@ -49,6 +49,14 @@ void listOf(const TomlTable& table, std::string_view key, const Names& names) {
   }
 }
 
+void oneOrMore(const TomlTable& table, std::string_view key, const Names& names) {
+  const toml::node* const node = table.find(key);
+  if (node && !node->is_array())
+    oneOf(table, key, *node, names);
+  else
+    listOf(table, key, names);
+}
+
 /// A number, or one with < > <= >= before it.
 void checkBound(const TomlTable& table, const TomlTable::Entry& entry) {
   if (entry.node.is_number()) return;
@@ -109,13 +117,8 @@ void checkExpectation(const TomlTable& expect, const Sweep& sweep) {
   Names scenes, counters;
   for (const SweepScene& scene : sweep.scenes) scenes.push_back(scene.name);
   for (const CounterDoc& doc : counterDocs()) counters.push_back(doc.name);
-  if (const toml::node* const node = expect.find("scene")) {
-    if (node->is_array())
-      listOf(expect, "scene", scenes);
-    else
-      oneOf(expect, "scene", *node, scenes);
-  }
-  if (const toml::node* const status = expect.find("status")) oneOf(expect, "status", *status, kStatuses);
+  oneOrMore(expect, "scene", scenes);
+  oneOrMore(expect, "status", kStatuses);
   checkBounds(expect, "error", kErrorFields);
   if (const toml::node* const node = expect.find("truth_error"); node && sweep.truth.values().empty())
     expect.refuse("truth_error", *node, "there is no [truth] to measure it from");
