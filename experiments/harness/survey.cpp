@@ -1,0 +1,88 @@
+#include "experiments/harness/survey.h"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <tuple>
+
+#include "datasets/input.h"
+#include "host/cli/common.h"
+#include "host/cli/progress.h"
+#include "host/error.h"
+#include "host/oracle-image.h"
+#include "host/plan.h"
+#include "host/stages.h"
+
+namespace tessera::harness {
+namespace {
+
+/// A device as it was asked for, or why it cannot be had.
+struct Opened {
+  std::unique_ptr<Device> device;
+  std::string whyNot;
+};
+
+Opened open(const std::string& name, unsigned threads) {
+  try {
+    return {cli::openDevice(name, threads), ""};
+  } catch (const Error& error) {
+    return {nullptr, error.what()};
+  }
+}
+
+using KernelKey = std::tuple<std::string, std::filesystem::path, Route, VariantModules>;
+
+}  // namespace
+
+std::string imageText(const Variant& resolved) {
+  const reference::Image image = imageOf(resolved);
+  return fmt::format("{} {} {} {}", static_cast<int>(image.cull), static_cast<int>(image.fill),
+                     static_cast<int>(image.interpolate), image.subPixelBits);
+}
+
+Survey survey(const Sweep& sweep, const std::vector<Cell>& cells, KernelCache& kernels) {
+  Survey survey;
+  survey.cells.resize(cells.size());
+  std::map<std::pair<std::string, unsigned>, Opened> devices;
+  std::map<KernelKey, KernelRequest> needed;
+  std::optional<Scene> scene;
+  std::size_t loaded = 0;
+  Size size;
+  cli::Progress progress("planning", cells.size());
+  for (const Cell& cell : cells) {
+    SurveyedCell& result = survey.cells[cell.number];
+    const auto key = std::pair(cell.device, cell.threads);
+    if (!devices.contains(key)) devices[key] = open(cell.device, cell.threads);
+    const Opened& opened = devices[key];
+    if (!opened.device) {
+      result = {opened.whyNot, false, ""};
+      continue;
+    }
+    if (!scene || loaded != cell.scene || size != cell.size) {
+      const SweepScene& input = sweep.scenes[cell.scene];
+      progress.at(cell.number, "loading " + input.name);
+      scene = loadInput(input.input, cell.size.width, cell.size.height, input.attribute);
+      loaded = cell.scene;
+      size = cell.size;
+    }
+    progress.at(cell.number);
+    try {
+      const Plan plan = makePlan(*scene, cell.asked, opened.device->info());
+      result.image = imageText(plan.resolved);
+      Variant counting = cell.asked;  // the frame whose work is counted
+      counting.set("counters", "work");
+      for (const Plan& one : {plan, makePlan(*scene, counting, opened.device->info())})
+        for (const KernelRequest& request : kernelRequests(one, cell.kernels))
+          needed.try_emplace({request.stage, request.file, request.route, request.modules}, request);
+    } catch (const Error& error) {
+      if (error.code() != ExitCode::kUsage && error.code() != ExitCode::kUnsupported) throw;
+      result.refused = error.what();
+    }
+  }
+  survey.kernels = needed.size();
+  for (const auto& [key, request] : needed)
+    if (!kernels.has(request)) survey.uncompiled.push_back(request);
+  return survey;
+}
+
+}  // namespace tessera::harness
