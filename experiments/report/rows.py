@@ -1,0 +1,278 @@
+"""The rows of a sweep: read, checked, and put into groups of cells that may be compared with each other."""
+from collections import defaultdict
+from dataclasses import dataclass, field
+import json
+import math
+from pathlib import Path
+import tomllib
+
+import ratios
+
+# What a cell can be told apart by besides the axes; "x" is the number of its scene.
+kPlaces = ("machine", "scene", "size", "device", "threads")
+
+
+class Refused(Exception):
+  """One line: file, place, what is wrong, what would be right."""
+
+
+@dataclass
+class Cell:
+  row: dict
+  line: int
+  machine: str = ""
+  values: dict = field(default_factory=dict)  # of axes and kPlaces, as text; no entry where the cell has no such axis
+  samples: ratios.Samples = field(default_factory=dict)  # with those taken again: for ratios
+  ratio: ratios.Ratio | None = None  # to its group's reference
+
+  @property
+  def number(self): return self.row["sweep"]["cell"]
+  @property
+  def status(self): return self.row["status"]
+  @property
+  def message(self): return self.row.get("message", "")
+  @property
+  def reference(self): return self.row["sweep"].get("reference", False)
+  @property
+  def twin(self): return self.row["sweep"].get("twin", False)
+  @property
+  def software(self): return self.row["provenance"].get("correctness_only", False)
+  @property
+  def timed(self): return self.status == "ok" and bool(self.row.get("time_ns", {}).get("samples"))
+  @property
+  def ms(self): return self.spread[0]
+  @property
+  def spread(self):
+    """Median and quartiles, ms."""
+    return tuple(value / 1e6 for value in ratios.spread(self.row["time_ns"]["samples"]))
+  @property
+  def fullKey(self):
+    provenance = self.row["provenance"]
+    return tuple(str(provenance.get(key, "")) for key in ("cpu", "os", "device", "driver", "api", "threads"))
+
+  def error(self, source, name):
+    """A number of `error` or `truth_error`; None where it was not measured."""
+    value = self.row.get(source, {}).get(name)
+    return float(value) if isinstance(value, (int, float)) else None
+
+  def mismatches(self, source="error"):
+    return sum(value for name, value in self.row.get(source, {}).items()
+               if name.endswith("_mismatch") and isinstance(value, (int, float)))
+
+
+@dataclass
+class Group:
+  """Cells of one scene, size, device and number of threads on one machine."""
+  cells: list
+  reference: Cell | None = None
+  twin: Cell | None = None
+  floors: dict = field(default_factory=dict)  # session -> noise floor, a factor
+
+  def __post_init__(self):
+    self.reference = next((cell for cell in self.cells if cell.reference and not cell.twin), None)
+    self.twin = next((cell for cell in self.cells if cell.twin), None)
+    if self.reference and self.reference.timed:
+      if self.twin and self.twin.timed and self.twin.fullKey == self.reference.fullKey:
+        pairs = ratios.paired(self.twin.samples, self.reference.samples)
+        self.floors = {session: ratios.noiseFloor(values) for session, values in pairs.items()}
+      for cell in self.cells:
+        cell.ratio = self.compare(cell, self.reference)
+
+  @property
+  def values(self): return {place: self.cells[0].values[place] for place in kPlaces if place in self.cells[0].values}
+  @property
+  def floor(self): return max(self.floors.values()) if self.floors else None
+  @property
+  def candidates(self):
+    """What may be fastest: the twin is the reference once more."""
+    return [cell for cell in self.cells if cell.timed and not cell.twin]
+
+  def compare(self, a: Cell, b: Cell):
+    """None where the two may not be compared: no time, no round in common, or another machine."""
+    if not (a.timed and b.timed) or a.fullKey != b.fullKey:
+      return None
+    return ratios.ratio(a.samples, b.samples, self.floors)
+
+  def fastest(self, cells):
+    """The fastest of `cells`, and those that are equal to it, itself first."""
+    if not cells:
+      return []
+    first = min(cells, key=lambda cell: (cell.ratio.median if cell.ratio else math.inf, cell.ms))
+    others = [(cell, self.compare(cell, first)) for cell in cells if cell is not first]
+    return [first] + [cell for cell, ratio in others if ratio and ratio.equal]
+
+
+@dataclass
+class Sweep:
+  folder: Path
+  title: str
+  question: str
+  sha256: str
+  cells: list
+  groups: list
+  swept: list  # axes that vary, in the file's order
+  plot: dict   # [plot] of sweep.toml
+  truth: dict  # [truth], as the rows have it
+  notes: list  # lines that the page has to say
+
+  def varies(self, name): return len(self.order(name)) > 1
+
+  def order(self, name):
+    """The values of an axis or place: numbers by size, words as the sweep has them."""
+    found = list(dict.fromkeys(cell.values[name] for cell in self.cells if name in cell.values))
+    numbers = [number(name, value) for value in found]
+    return found if None in numbers else [value for _, value in sorted(zip(numbers, found))]
+
+  def machines(self): return list(dict.fromkeys(cell.machine for cell in self.cells))
+
+
+def number(name, text):
+  """The number that a value stands for on an axis; None for words. A size is the edge of the square with as many pixels."""
+  if name in ("scene", "device", "machine"):
+    return None
+  if name == "size":
+    width, height = text.split(" x ")
+    return math.sqrt(int(width) * int(height))
+  try:
+    value = float(text)
+  except ValueError:
+    return None
+  return value if math.isfinite(value) else None
+
+
+def readLines(path, schema):
+  cells = []
+  with path.open(encoding="utf-8") as lines:
+    for line, text in enumerate(lines, 1):
+      where = f"{path}:{line}"
+      if not text.strip():
+        continue
+      try:
+        row = json.loads(text)
+      except ValueError as error:
+        raise Refused(f"{where}: not a line of JSON ({error}); a line should be one row, as 'tessera sweep' writes it") from None
+      if not isinstance(row, dict) or "schema_version" not in row:
+        raise Refused(f"{where}: not a row; a line should be one row, as 'tessera sweep' writes it")
+      if row["schema_version"] != schema:
+        raise Refused(f"{where}: a row of schema version {row['schema_version']}; this report reads version {schema}: "
+                      "make it with the tessera that made the rows, or run the sweep again")
+      for key, kind in (("sweep", dict), ("status", str), ("provenance", dict), ("scene", dict)):
+        if not isinstance(row.get(key), kind):
+          raise Refused(f"{where}: {key}: missing; a sweep's row has it (rows of 'tessera render --json' have no sweep)")
+      for key in ("title", "question", "sha256", "cell", "group", "scene", "device"):
+        if key not in row["sweep"]:
+          raise Refused(f"{where}: sweep.{key}: missing; a sweep's row has it")
+      cells.append(Cell(row, line))
+  if not cells:
+    raise Refused(f"{path}: no rows; run the sweep first: tessera sweep SWEEP.toml --out {path.parent}")
+  return cells
+
+
+def readPlot(folder, sweep):
+  """[plot], whose axes have to be the rows' own."""
+  path = folder / "sweep.toml"
+  if not path.exists():
+    sweep.notes.append("There is no sweep.toml beside the rows, so the plots are the usual ones.")
+    return {}
+  text = path.read_bytes()
+  try:
+    file = tomllib.loads(text.decode("utf-8"))
+  except ValueError as error:
+    raise Refused(f"{path}: not TOML: {error}") from None
+  if file.get("title") != sweep.title:
+    raise Refused(f"{path}: title: \"{file.get('title')}\", but the rows are of \"{sweep.title}\"; "
+                  "the folder should hold the sweep that gave the rows")
+  plot = file.get("plot", {})
+  known = [*sweep.swept, *kPlaces]
+  asked = [("curve", axis) for axis in plot.get("curve", [])]
+  asked += [("against", axis) for axis in plot.get("against", []) if axis != "x"]
+  asked += [("heat", axis) for pair in plot.get("heat", []) for axis in pair]
+  for key, axis in asked:
+    if axis not in known:
+      raise Refused(f"{path}: plot.{key}: \"{axis}\" does not vary in these rows; one of {', '.join(known)} would do")
+  return plot
+
+
+def samplesOf(row):
+  samples = defaultdict(list)
+  times = row.get("time_ns", {})
+  for part in (times, times.get("again", {})):
+    values = part.get("samples", [])
+    rounds = part.get("rounds", range(len(values)))
+    sessions = part.get("sessions", [0] * len(values))
+    for value, turn, session in zip(values, rounds, sessions):
+      samples[session, turn].append(value)
+  return dict(samples)
+
+
+def nameMachines(cells):
+  """A machine is a CPU and a system, unless that would make one of two that answer differently to the same device."""
+  answers = defaultdict(set)
+  for cell in cells:
+    if cell.row["provenance"].get("device"):
+      answers[cell.fullKey[:2], cell.row["sweep"]["device"], cell.row["sweep"].get("threads")].add(cell.fullKey)
+  several = {host for (host, _, _), keys in answers.items() if len(keys) > 1}
+  keys = {}
+  for cell in cells:
+    host = cell.fullKey[:2]
+    keys.setdefault(cell.fullKey if host in several else host, []).append(cell)
+  names = [key[0] or "unknown machine" for key in keys]
+  if len(set(names)) < len(names):
+    names = [", ".join(part for part in key if part) for key in keys]
+  # What is still alike differs in its driver or compiler, which the table of the environment has.
+  for index, (name, members) in enumerate(zip(names, keys.values())):
+    for cell in members:
+      cell.machine = name if names.count(name) == 1 else f"{name} ({index + 1})"
+
+
+def valuesOf(cell, allDevices):
+  row, sweep = cell.row, cell.row["sweep"]
+  values = {axis: str(value) for axis, value in sweep.get("asked", {}).items()}
+  values = {axis: value if value else "own" for axis, value in values.items()}
+  values["machine"] = cell.machine
+  values["scene"] = sweep["scene"]
+  if "size" in row["scene"]:
+    values["size"] = " x ".join(str(edge) for edge in row["scene"]["size"])
+  values["device"] = sweep["device"] + (" (software)" if cell.software and allDevices else "")
+  threads = row["provenance"].get("threads") or sweep.get("threads")
+  if threads:
+    values["threads"] = str(threads)
+  if sweep.get("x") is not None:
+    values["x"] = f"{sweep['x']:g}"
+  return values
+
+
+def readSweep(folder, schema, allDevices=False):
+  path = folder / "rows.jsonl"
+  try:
+    cells = readLines(path, schema)
+  except (OSError, UnicodeDecodeError) as error:
+    raise Refused(f"{path}: {getattr(error, 'strerror', None) or 'not UTF-8'}") from None
+  first = cells[0]
+  for cell in cells:
+    if cell.row["sweep"]["sha256"] != first.row["sweep"]["sha256"]:
+      raise Refused(f"{path}:{cell.line}: a row of another sweep, \"{cell.row['sweep']['title']}\" "
+                    f"({cell.row['sweep']['sha256'][:12]}), than line {first.line}, \"{first.row['sweep']['title']}\" "
+                    f"({first.row['sweep']['sha256'][:12]}); give each sweep a folder of its own")
+  seen = {}
+  for cell in cells:
+    other = seen.setdefault((cell.fullKey, cell.number), cell)
+    if other is not cell:
+      raise Refused(f"{path}:{cell.line}: cell {cell.number} of the same machine is in line {other.line}, too; "
+                    "rows of one machine should be there once")
+  nameMachines(cells)
+  for cell in cells:
+    cell.values = valuesOf(cell, allDevices)
+    cell.samples = samplesOf(cell.row)
+  order = {machine: index for index, machine in enumerate(dict.fromkeys(cell.machine for cell in cells))}
+  cells.sort(key=lambda cell: (order[cell.machine], cell.number))
+  groups = defaultdict(list)
+  for cell in cells:
+    groups[cell.machine, cell.row["sweep"]["group"]].append(cell)
+  swept = [axis for axis in dict.fromkeys(axis for cell in cells for axis in cell.row["sweep"].get("swept", []))]
+  truth = next((cell.row["truth"] for cell in cells if cell.row.get("truth")), {})
+  about = first.row["sweep"]
+  sweep = Sweep(folder, about["title"], about["question"], about["sha256"], cells,
+                [Group(members) for members in groups.values()], swept, {}, truth, [])
+  sweep.plot = readPlot(folder, sweep)
+  return sweep
