@@ -21,6 +21,7 @@ Command addPlan(CLI::App& app);
 Command addDevices(CLI::App& app);
 Command addVariants(CLI::App& app);
 Command addKernels(CLI::App& app);
+Command addExpand(CLI::App& app);
 Command addSweep(CLI::App& app);
 Command addSweepWorker(CLI::App& app);  ///< hidden: what `sweep` starts for each job
 
