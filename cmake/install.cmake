@@ -1,5 +1,5 @@
-# cmake --install: headers as in the source tree under include/tessera, libtessera.a, the kernels' Slang sources, the command,
-# and a package for find_package(tessera), which gives tessera::tessera.
+# cmake --install: headers as in the source tree under include/tessera, libtessera.a, the kernels' Slang sources, the command, what it
+# makes reports with, and a package for find_package(tessera), which gives tessera::tessera.
 include(CMakePackageConfigHelpers)
 set(packageFolder ${CMAKE_INSTALL_LIBDIR}/cmake/tessera)
 set(slangFolder ${CMAKE_INSTALL_DATADIR}/tessera/slang)
@@ -11,6 +11,7 @@ target_sources(tessera PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} F
 install(TARGETS tessera EXPORT tessera FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tessera)
 install(TARGETS tessera-cli)
 install(DIRECTORY slang/ DESTINATION ${slangFolder})
+install(DIRECTORY experiments/report/ DESTINATION ${CMAKE_INSTALL_DATADIR}/tessera/report PATTERN __pycache__ EXCLUDE)
 install(EXPORT tessera NAMESPACE tessera:: FILE tesseraTargets.cmake DESTINATION ${packageFolder})
 
 configure_package_config_file(cmake/tesseraConfig.cmake.in ${PROJECT_BINARY_DIR}/tesseraConfig.cmake

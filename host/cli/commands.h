@@ -23,6 +23,7 @@ Command addVariants(CLI::App& app);
 Command addKernels(CLI::App& app);
 Command addExpand(CLI::App& app);
 Command addSweep(CLI::App& app);
+Command addReport(CLI::App& app);
 Command addSweepWorker(CLI::App& app);  ///< hidden: what `sweep` starts for each job
 
 }  // namespace tessera::cli

@@ -34,7 +34,8 @@ ExitCode runCommand(int argc, char** argv) {
       "this variant; 5 compare or parity found a difference; 130 a signal stopped sweep; 1 anything else.");
   const std::array commands{cli::addRender(app),  cli::addParity(app),   cli::addCompare(app), cli::addPlan(app),
                             cli::addDevices(app), cli::addVariants(app), cli::addKernels(app),
-                            cli::addExpand(app),  cli::addSweep(app),   cli::addSweepWorker(app)};
+                            cli::addExpand(app),  cli::addSweep(app),   cli::addSweepWorker(app),
+                            cli::addReport(app)};
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
