@@ -162,10 +162,9 @@ class Page:
       title = f"<h4>{escape(panel.title)}</h4>" if panel.title else ""
       panels.append(f'<div class="panel">{title}<div class="scroll" tabindex="0" role="group" aria-label="{escape(plot.title)}{", " + escape(panel.title) if panel.title else ""}">'
                     f'<div class="chart" data-spec="{len(self.specs) - 1}"></div></div></div>')
-    axes = f'<p class="note">Bars: {escape(", ".join(self.sweep.swept))}.</p>' if plot.kind == "bars" and len(self.sweep.swept) > 1 else ""
     files = [name for name in self.figures if name == plot.name or name.startswith(plot.name + "-page-")]
     links = "; ".join(" ".join(f'<a href="figures/{name}.{kind}">{kind.upper()}</a>' for kind in ("svg", "pdf", "png")) for name in files)
-    return (f'<figure id="{escape(plot.name)}"><h3>{escape(plot.title)}</h3>{self.legend(plot)}{axes}<div class="panels{wide}">{"".join(panels)}</div>'
+    return (f'<figure id="{escape(plot.name)}"><h3>{escape(plot.title)}</h3>{self.legend(plot)}<div class="panels{wide}">{"".join(panels)}</div>'
             f"<figcaption>{escape(plot.caption)}{' As a file: ' + links + '.' if links else ''}</figcaption></figure>")
 
   def section(self, name, title, kinds):

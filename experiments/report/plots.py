@@ -426,11 +426,12 @@ class Plots:
       values = group.values
       panel = Panel(", ".join(f"{values[p]} threads" if p == "threads" else values[p] for p in places if p in values))
       for cell in members:
-        bar = words.cellName(cell, self.sweep.swept)
+        bar = ", ".join(cell.values.get(axis, "\u2013") for axis in self.sweep.swept) or "the only cell"
         for stage, ns in cell.row["time_ns"]["stages"].items():
           panel.cells.append((bar, stage, ns / 1e6, f"{bar}: {stage} {words.significant(ns / 1e6)} ms"))
       panels.append(panel)
-    caption = "Medians of the stages, one bar a cell, in the sweep's order. Medians need not add up to the median of the frame."
+    names = f" ({', '.join(self.sweep.swept)})" if self.sweep.swept else ""
+    caption = f"Medians of the stages, one bar a cell{names}, in the sweep's order. Medians need not add up to the median of the frame."
     caption += f" Of more than {kMostBars} cells, the fastest {kMostBars}." if cut else ""
     self.list.append(Plot("stages", "bars", "Where the time goes", caption, "ms", "", panels, rows=stages, yLog=False))
 
@@ -446,11 +447,11 @@ def front(points):
 
 
 def errorTicks(span, zero):
-  """Ticks of an error axis whose zero is drawn at `zero`."""
+  """Ticks and labels of an axis of errors, whose zero is drawn at `zero`, or of another logarithmic one."""
   if zero is None:
     found = scales.ticks(*span, True)
     return found, [scales.text(tick) for tick in found]
-  found = scales.ticks(zero * 5, span[1], True)
+  found = scales.powers(zero * 10, span[1])
   return [zero, *found], ["0", *(scales.text(tick) for tick in found)]
 
 
@@ -477,5 +478,5 @@ def spansOf(plot, panel):
     low, high = scales.domain([v for v in heights(plot.panels if shared else [panel]) if v > 0], True)
     spans["y"] = (low, max(high, low * 1.2))
   if plot.zero:
-    spans["y"] = (plot.zero / 2, spans["y"][1])
+    spans["y"] = (plot.zero / 2, max(spans["y"][1], plot.zero * 30))
   return spans

@@ -12,19 +12,24 @@ def domain(values, logarithmic):
   return low - air, high + air
 
 
+def powers(low, high, most=7):
+  """1, 2 and 5 times powers of ten, or fewer of these where that is plenty."""
+  exponents = range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
+  for factors in ((1, 2, 5), (1, 3), (1,)):
+    found = [factor * 10.0 ** exponent for exponent in exponents for factor in factors]
+    found = [tick for tick in found if low <= tick * (1 + 1e-9) and tick <= high]
+    if len(found) <= most:
+      break
+  while len(found) > most:
+    found = found[::2]
+  return found
+
+
 def ticks(low, high, logarithmic, most=7):
-  """1, 2 and 5 times powers of ten, or powers alone where that is plenty; evenly spaced where the axis is short."""
-  if logarithmic:
-    first, last = math.floor(math.log10(low)), math.ceil(math.log10(high))
-    for factors in ((1, 2, 5), (1, 3), (1,)):
-      found = [factor * 10.0 ** power for power in range(first, last + 1) for factor in factors]
-      found = [tick for tick in found if low <= tick <= high]
-      if len(found) <= most:
-        break
-    while len(found) > most:
-      found = found[::2]
-    if len(found) >= 3:
-      return found
+  """Powers where the axis is long enough for three of them; else evenly spaced."""
+  found = powers(low, high, most) if logarithmic else []
+  if len(found) >= 3:
+    return found
   step = 10.0 ** math.floor(math.log10((high - low) / 3))
   for factor in (1, 2, 5, 10):
     if (high - low) / (factor * step) <= most - 2:
