@@ -5,7 +5,10 @@ from pathlib import Path
 import shutil
 import sys
 
-import rows
+try:
+  import rows
+except ModuleNotFoundError as error:
+  sys.exit(f"tessera: {sys.executable} has no {error.name}: './dev build' installs a Python that has what tools/report.txt lists")
 
 
 def writeBeside(path, content):
@@ -31,6 +34,13 @@ def writeFigures(folder, plots):
   return list(dict.fromkeys(names))
 
 
+def checkExport(path):
+  if path.suffix not in (".parquet", ".duckdb"):
+    raise rows.Refused(f"{path}: --export writes Parquet and DuckDB files; a name that ends in .parquet or .duckdb would do")
+  if not path.absolute().parent.is_dir():
+    raise rows.Refused(f"{path}: its folder is not there; one that is would do")
+
+
 def main():
   parser = argparse.ArgumentParser(prog="tessera report")
   parser.add_argument("folder", type=Path)
@@ -40,12 +50,13 @@ def main():
   arguments = parser.parse_args()
   sweep = rows.readSweep(arguments.folder, arguments.schema, arguments.all_devices)
 
-  # Only now, since these take a second and a bad folder should be refused at once.
+  if arguments.export:
+    checkExport(arguments.export)
+
+  # Only now, since these take a second and what is wrong with a folder should be said at once.
   import export
   import page
   import plots as plots_
-  if arguments.export:
-    export.check(arguments.export)
   plots = plots_.Plots(sweep, arguments.all_devices)
   report = arguments.folder / "report"
   report.mkdir(exist_ok=True)
@@ -69,3 +80,5 @@ except rows.Refused as refused:
   sys.exit(complain(refused, 2))
 except OSError as error:
   sys.exit(complain(f"{error.filename}: {error.strerror}", 1))
+except KeyboardInterrupt:
+  sys.exit(130)

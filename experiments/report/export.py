@@ -6,15 +6,6 @@ import tempfile
 
 import duckdb
 
-from rows import Refused
-
-
-def check(path):
-  if path.suffix not in (".parquet", ".duckdb"):
-    raise Refused(f"{path}: --export writes Parquet and DuckDB files; a name that ends in .parquet or .duckdb would do")
-  if not path.absolute().parent.is_dir():
-    raise Refused(f"{path}: the folder is not there")
-
 
 def write(sweep, path):
   """Table `rows`: fields as in rows.jsonl, nested ones as structs, and first what the report adds."""

@@ -186,7 +186,8 @@ class Page:
       first = picture.cells[0]
       counts = [f"{words.significant(value)} {words.kErrors.get(name, name)}{origin}"
                 for source, origin in (("error", ""), ("truth_error", f" {self.plots.truthWords()}"))
-                for name, value in first.row.get(source, {}).items() if name.endswith("_mismatch") and value]
+                for name, value in first.row.get(source, {}).items()
+                if name.endswith("_mismatch") and value and (source == "error" or value != first.row.get("error", {}).get(name))]
       names = ", ".join([*(first.values.get(place, "") for place in self.places), words.cellName(first, self.sweep.swept)])
       others = f" The same in {words.count(len(picture.cells) - 1, 'other cell')}: {', '.join(str(cell.number) for cell in picture.cells[1:])}." if picture.cells[1:] else ""
       (width, height), (small, _) = picture.size, picture.shown

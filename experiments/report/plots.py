@@ -328,6 +328,10 @@ class Plots:
     elif kind == "ratio" and any(panel.band for panel in panels):
       caption += "The grey band is the A/A noise floor: within it, times are equal." + (
           " It is the widest of the references' floors." if any(len(self.references(m)) > 1 for _, m in self.split(cells, taken)) else "")
+    if kind == "error":
+      exact = [panel for panel in panels if not any(point.y for point in panel.points) and not any(y for _, y, _ in panel.levels)]
+      panels = [panel for panel in panels if panel not in exact]
+      caption += f"Nowhere an error, and so no plot: {words.listing(panel.title for panel in exact)}. " if exact else ""
     heights = [point.y for panel in panels for point in panel.points] + [y for panel in panels for _, y, _ in panel.levels]
     zero = None
     if kind == "error" and min(heights) == 0:

@@ -1,6 +1,7 @@
 """The rows of a sweep: read, checked, and put into groups of cells that may be compared with each other."""
 from collections import defaultdict
 from dataclasses import dataclass, field
+import hashlib
 import json
 import math
 from pathlib import Path
@@ -182,6 +183,8 @@ def readPlot(folder, sweep):
   if file.get("title") != sweep.title:
     raise Refused(f"{path}: title: \"{file.get('title')}\", but the rows are of \"{sweep.title}\"; "
                   "the folder should hold the sweep that gave the rows")
+  if hashlib.sha256(text).hexdigest() != sweep.sha256:
+    sweep.notes.append("sweep.toml has been changed since the sweep ran; its [plot] is used, its cells are those of the rows.")
   plot = file.get("plot", {})
   known = [*sweep.swept, *kPlaces]
   asked = [("curve", axis) for axis in plot.get("curve", [])]
