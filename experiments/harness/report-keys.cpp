@@ -57,19 +57,16 @@ void oneOrMore(const TomlTable& table, std::string_view key, const Names& names)
     listOf(table, key, names);
 }
 
-/// A number, or one with < > <= >= before it.
+/// A number, or one after a comparison and a blank.
 void checkBound(const TomlTable& table, const TomlTable::Entry& entry) {
   if (entry.node.is_number()) return;
-  const auto text = entry.node.value_exact<std::string>();
-  std::string_view number = text ? std::string_view(*text) : "";
-  const std::size_t sign = number.starts_with("<=") || number.starts_with(">=") ? 2
-                           : number.starts_with('<') || number.starts_with('>') ? 1
-                                                                                : 0;
-  number.remove_prefix(sign);
-  if (number.starts_with(' ')) number.remove_prefix(1);
-  if (sign == 0 || !toDouble(number))
+  const std::string text = entry.node.value_exact<std::string>().value_or("");
+  const std::size_t blank = std::min(text.find(' '), text.size() - 1);
+  const auto comparisons = {"<", ">", "<=", ">="};
+  if (text.empty() || std::ranges::find(comparisons, text.substr(0, blank)) == comparisons.end() ||
+      !toDouble(text.substr(blank + 1)))
     table.refuse(entry.key.str(), entry.node,
-                 "a number, or one after a sign such as \"> 0\" or \"<= 1e-3\", would be right");
+                 "a number, or a comparison such as \"> 0\" or \"<= 1e-3\", would be right");
 }
 
 void checkBounds(const TomlTable& expect, std::string_view key, const Names& fields) {
