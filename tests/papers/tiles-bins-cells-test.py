@@ -1,0 +1,130 @@
+"""papers/tiles-bins-cells: its numbers come from rows, whatever the rows say, and the same rows give the same bytes."""
+import importlib
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+kRoot = Path(__file__).resolve().parents[2]
+kPaper = kRoot / "papers" / "tiles-bins-cells"
+sys.path[:0] = [str(kPaper), str(Path(__file__).parent)]
+import crossovers  # noqa: E402
+import sample  # noqa: E402
+
+typedNumbers = importlib.import_module("typed-numbers")
+
+
+class TilesBinsCells(unittest.TestCase):
+  def setUp(self):
+    self.folder = Path(self.enterContext(tempfile.TemporaryDirectory()))
+
+  def run_(self, program, *arguments):
+    return subprocess.run([sys.executable, program, *map(str, arguments)], capture_output=True, text=True)
+
+  def build(self, name, folders):
+    """The PDF; nothing may be said on the way, such as of a font or a figure that is not there."""
+    out = self.folder / name
+    out.mkdir()
+    for result in (self.run_(kPaper / "values.py", out, *folders),
+                   self.run_(kRoot / "papers/typeset.py", kPaper / "main.typ", out, out / "main.pdf")):
+      self.assertEqual((result.returncode, result.stderr), (0, ""))
+    return (out / "main.pdf").read_bytes()
+
+  def testNoNumberIsTyped(self):
+    text = (kPaper / "main.typ").read_text(encoding="utf-8")
+    self.assertEqual(typedNumbers.find(text), [])
+    # It would have been seen in each of these places.
+    for planted in ("It takes 1.5 ms.", "#if tile.dirty [up to 7] else [none]", '#code("tile=64")', "#table(columns: 2, [a], [12])",
+                    "#let n(q) = [#q.text~#q.unit and 3 more]", "#word(1.5)", "#figure([x], caption: [Of 52 cells.])"):
+      self.assertNotEqual(typedNumbers.find(text + "\n" + planted + "\n"), [], planted)
+    for harmless in ("@pineda1988 and <table-1>", "#v(0.5em)", "#tile.places.at(0).name", "`a 1`", "// 12"):
+      self.assertEqual(typedNumbers.find(harmless), [], harmless)
+
+  def testBuildsAreEqual(self):
+    folders = sample.write(self.folder)
+    first = self.build("a", folders)
+    self.assertEqual(first[:5], b"%PDF-")
+    self.assertTrue(first == self.build("b", folders), "two builds differ")
+    other = sample.write(self.folder / "other", lambda asked, area: 2 * sample.slowness(asked, area))
+    self.assertFalse(first == self.build("c", other), "other times give the same pages")
+
+  def testOtherOutcomesBuild(self):
+    """Sentences for what did not happen in the sample: nothing differs, nothing is lost, cells without a time, one scene."""
+    def change(row):
+      row["counters"]["retries"] = row["counters"]["overflowed"] = 0
+      row["error"] |= {"coverage_mismatch": 0, "id_mismatch": 0, "depth_mismatch": 0}
+      row.pop("error_samples", None)
+      if row["sweep"]["asked"].get("tile") == "8" or row["sweep"]["asked"].get("capacity") == "16":
+        row |= {"status": "timeout", "message": "a frame took longer than 60 s"}
+        del row["time_ns"]
+      return row if row["sweep"]["scene"] in ("elephant", "area-8", "area-32") else None
+
+    self.build("equal", sample.write(self.folder, lambda asked, area: 1, change))
+
+  def testCrossingsAreInterpolated(self):
+    def points(areas, where=1000, floor=1.02):
+      ratios = [(area / where) ** -0.05 for area in areas]
+      return [(area, ratio, max(ratio, 1 / ratio) <= floor) for area, ratio in zip(areas, ratios)]
+
+    (where, low, high, below), = crossovers.crossings(points([1, 10, 900, 1300, 1e5]))
+    self.assertAlmostEqual(where, 1000)
+    self.assertEqual((low, high, below), (10, 1e5, True))
+    self.assertEqual(crossovers.crossings(points([1, 10, 900, 1300])), [], "what noise may have done is no crossing")
+    self.assertEqual(crossovers.crossings(points([1e4, 1e5, 1e6])), [])
+    self.assertEqual(crossovers.runs([["a", "b"], ["b"], ["b", "c"], ["c"]]), [(["b"], 0, 2), (["c"], 3, 3)])
+
+  def testWhatIsWrongIsSaidInOneLine(self):
+    folders = sample.write(self.folder)
+    (self.folder / "out").mkdir()
+
+    def refused(message):
+      result = self.run_(kPaper / "values.py", self.folder / "out", *folders)
+      self.assertEqual((result.returncode, result.stderr.count("\n")), (2, 1), result.stderr)
+      self.assertIn(message, result.stderr)
+
+    rows = (folders[0] / "rows.jsonl").read_text()
+    (folders[0] / "rows.jsonl").write_text(rows + rows.splitlines()[0].replace('"cpu": "AMD EPYC"', '"cpu": "Another"'))
+    refused("several values of machine")
+    (folders[0] / "rows.jsonl").write_text(rows.replace('"twin": true', '"twin": false'))
+    refused("no time of the reference and its twin")
+    (folders[0] / "rows.jsonl").write_text(rows.replace("AMD EPYC", "Another"))
+    refused("not of one machine")
+
+    # A clone in which nothing has been built or measured.
+    bare = self.folder / "clone/papers/tiles-bins-cells"
+    bare.mkdir(parents=True)
+    shutil.copy(kPaper / "reproduce.sh", bare)
+
+    def says(message, *arguments):
+      result = subprocess.run([bare / "reproduce.sh", *arguments], capture_output=True, text=True)
+      self.assertNotEqual(result.returncode, 0)
+      self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
+      self.assertIn(message, result.stderr)
+
+    says("usage", "--new")
+    says("./dev build installs it")
+    os.makedirs(self.folder / "clone/.tools/report")
+    (self.folder / "clone/.tools/report/pinned").touch()
+    says("results.jsonl: not there; --fresh runs the sweep")
+    says("./dev build builds it", "--fresh")
+
+  def testCommittedPageIsThatOfTheCommittedRows(self):
+    rows = [kRoot / "experiments" / name / "results.jsonl" for name in sample.kSweeps]
+    page = kPaper / "main.pdf"
+    if not all(path.exists() for path in rows):
+      self.assertFalse(page.exists(), f"{page} has no rows that it comes from")
+      return
+    folders = []
+    for name, path in zip(sample.kSweeps, rows):
+      folders.append(self.folder / name)
+      folders[-1].mkdir()
+      shutil.copy(path, folders[-1] / "rows.jsonl")
+      shutil.copy(path.with_name("sweep.toml"), folders[-1])
+    self.assertTrue(self.build("page", folders) == page.read_bytes(), f"{page} is not what the rows give now; reproduce.sh makes it")
+
+
+if __name__ == "__main__":
+  unittest.main()
