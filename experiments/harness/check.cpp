@@ -30,10 +30,20 @@ std::string imageText(const Variant& resolved) {
   return text;
 }
 
-/// A user's kernel of a stage that this plan leaves out is a refusal here, as it is of a frame.
 void compile(const Scene& scene, const Variant& asked, const DeviceInfo& device, KernelCache& kernels) {
   for (const Variant& variant : {asked, counting(asked)})
     kernels.getAll(kernelRequests(makePlan(scene, variant, device), kernels.files()));
+}
+
+/// Settings that do not go together, with each other, the scene or a user's kernel, are a refusal as that of a device
+/// is.
+Plan planOf(const Scene& scene, const Variant& asked, const DeviceInfo& device, const KernelFiles& files) try {
+  Plan plan = makePlan(scene, asked, device);
+  kernelRequests(plan, files);
+  return plan;
+} catch (const Error& error) {
+  if (error.code() == ExitCode::kUsage) failUnsupported(error.what());
+  throw;
 }
 
 std::string mismatches(const Difference& d) {
@@ -94,10 +104,6 @@ Variant joined(Variant variant, const Variant& more) {
 
 bool variesFromRunToRun(const Variant& resolved) { return resolved.get("overflow") == "drop"; }
 
-std::string cellStatus(ExitCode code) {
-  return code == ExitCode::kUsage ? statusOf(ExitCode::kUnsupported) : statusOf(code);
-}
-
 Difference errorOf(const Scene& scene, const Variant& resolved, const Framebuffer& image, Oracles& oracles) {
   cli::Oracle& oracle = oracles.of(scene, resolved);
   oracle.holdColours(image.colour);  // it does not shade
@@ -107,7 +113,7 @@ Difference errorOf(const Scene& scene, const Variant& resolved, const Framebuffe
 double checkCell(Run& run, std::size_t number, const CheckTools& tools) {
   const Scene& scene = *run.scene;
   const Variant asked = run.variant;
-  const Plan plan = makePlan(scene, asked, run.device);
+  const Plan plan = planOf(scene, asked, run.device, tools.kernels.files());
   run.variant = plan.resolved;
   run.plan = plan.entries;
   compile(scene, asked, run.device, tools.kernels);

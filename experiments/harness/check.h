@@ -48,10 +48,6 @@ bool variesFromRunToRun(const Variant& resolved);
 /// The error of one frame of such a variant.
 Difference errorOf(const Scene& scene, const Variant& resolved, const Framebuffer& image, Oracles& oracles);
 
-/// The row's word for what a cell ended by: settings that do not go together are as unsupported as a device that
-/// cannot.
-std::string cellStatus(ExitCode code);
-
 /// `variant` with the settings of `more` on top.
 Variant joined(Variant variant, const Variant& more);
 

@@ -42,12 +42,6 @@ Json timeJson(const CellRecord& cell, const std::vector<Sample>& samples, const 
   return json;
 }
 
-double medianOf(std::vector<double> values) {
-  std::ranges::sort(values);
-  const std::size_t half = values.size() / 2;
-  return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
-}
-
 /// Of variants that differ from run to run: lists of what each timed frame was in error by, and their medians in
 /// `error`.
 void putErrors(Json& row, const std::vector<Sample>& samples) {
@@ -90,6 +84,13 @@ Json rowOf(const Json& head, const CellRecord& cell) {
 }
 
 }  // namespace
+
+double medianOf(std::vector<double> values) {
+  if (values.empty()) return 0;
+  std::ranges::sort(values);
+  const std::size_t half = values.size() / 2;
+  return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
+}
 
 std::string rowsText(const Record& record) {
   std::string text;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 
+#include "experiments/harness/rows.h"
 #include "host/cli/table.h"
 #include "host/row.h"
 
@@ -25,7 +26,7 @@ double medianTime(const CellRecord& cell) {
   return totalSpread(times).median;
 }
 
-/// Median over the rounds of time over the reference's time in the same round; of first repeats, which both have.
+/// Median over the rounds of time over the reference's time in the same round; each repeat with the same one.
 double ratio(const CellRecord& cell, const CellRecord& reference) {
   std::map<std::pair<unsigned, unsigned>, double> base;
   for (const Sample& s : reference.samples) base[{s.round, s.repeat}] = static_cast<double>(s.times.totalNs);
@@ -33,10 +34,7 @@ double ratio(const CellRecord& cell, const CellRecord& reference) {
   for (const Sample& s : cell.samples)
     if (const auto found = base.find({s.round, s.repeat}); found != base.end() && found->second > 0)
       ratios.push_back(static_cast<double>(s.times.totalNs) / found->second);
-  if (ratios.empty()) return 0;
-  const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
-  std::ranges::nth_element(ratios, middle);
-  return *middle;
+  return medianOf(std::move(ratios));
 }
 
 std::string errorText(const Json& row) {
@@ -68,7 +66,7 @@ std::string groupTable(const std::vector<Line>& lines, const std::vector<std::st
     std::vector<std::string> row;
     for (const auto& axis : swept) row.push_back(sweep["asked"].value(axis, "-"));
     if (line.cell->samples.empty()) {
-      row.insert(row.end(), {line.status(), "-", "-"});
+      row.insert(row.end(), {"-", "-", line.status()});
     } else {
       const bool twin = sweep["twin"];
       row.push_back(cli::milliseconds(medianTime(*line.cell)));

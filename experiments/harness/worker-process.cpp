@@ -4,13 +4,13 @@
 #include <fmt/format.h>
 #include <poll.h>
 #include <spawn.h>
-#include <sys/signalfd.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <utility>
 
 #include "host/error.h"
 
@@ -19,12 +19,19 @@ extern char** environ;
 namespace tessera::harness {
 namespace {
 
-sigset_t interruptSet() {
-  sigset_t set;
-  sigemptyset(&set);
-  sigaddset(&set, SIGINT);
-  sigaddset(&set, SIGTERM);
-  return set;
+int signalled = -1;  // the end that the handler writes to
+
+extern "C" void tellInterrupt(int) {
+  const int error = errno;
+  [[maybe_unused]] const ssize_t put = write(signalled, "", 1);  // a full pipe has said enough
+  errno = error;
+}
+
+void handle(int number, void (*handler)(int)) {
+  struct sigaction action {};
+  action.sa_handler = handler;
+  action.sa_flags = SA_RESTART;
+  sigaction(number, &action, nullptr);
 }
 
 void closeBoth(const int (&ends)[2]) {
@@ -35,22 +42,27 @@ void closeBoth(const int (&ends)[2]) {
 }  // namespace
 
 Interrupts::Interrupts() {
-  const sigset_t set = interruptSet();
-  pthread_sigmask(SIG_BLOCK, &set, nullptr);  // before any thread is made: they have it from here
-  std::signal(SIGPIPE, SIG_IGN);              // a worker that died is seen by what it says
-  descriptor_ = signalfd(-1, &set, SFD_CLOEXEC | SFD_NONBLOCK);
-  if (descriptor_ < 0) fail(fmt::format("sweep: signals cannot be waited for: {}", std::strerror(errno)));
+  int ends[2];
+  if (pipe2(ends, O_CLOEXEC | O_NONBLOCK) != 0)
+    fail(fmt::format("sweep: signals cannot be waited for: {}", std::strerror(errno)));
+  descriptor_ = ends[0];
+  signalled = ends[1];
+  // A handler, not a mask with a signalfd: libraries have made threads already, which would not have the mask.
+  handle(SIGINT, tellInterrupt);
+  handle(SIGTERM, tellInterrupt);
+  std::signal(SIGPIPE, SIG_IGN);  // a worker that died is seen by what it says
 }
 
 Interrupts::~Interrupts() {
+  handle(SIGINT, SIG_DFL);
+  handle(SIGTERM, SIG_DFL);
   close(descriptor_);
-  const sigset_t set = interruptSet();
-  pthread_sigmask(SIG_UNBLOCK, &set, nullptr);
+  close(std::exchange(signalled, -1));
 }
 
 bool Interrupts::came() {
-  signalfd_siginfo info;
-  while (read(descriptor_, &info, sizeof info) == sizeof info) came_ = true;
+  char byte;
+  while (read(descriptor_, &byte, 1) == 1) came_ = true;
   return came_;
 }
 
@@ -67,13 +79,11 @@ WorkerProcess::WorkerProcess(Interrupts& interrupts) : interrupts_(interrupts) {
   posix_spawn_file_actions_adddup2(&actions, out[1], STDOUT_FILENO);
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
-  sigset_t none, defaults;
-  sigemptyset(&none);
+  sigset_t defaults;
   sigemptyset(&defaults);
   sigaddset(&defaults, SIGPIPE);
-  posix_spawnattr_setsigmask(&attributes, &none);
   posix_spawnattr_setsigdefault(&attributes, &defaults);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
   char name[] = "tessera", command[] = "sweep-worker";
   char* const arguments[] = {name, command, nullptr};
   // The program that runs, also where a new one has been built in its place.

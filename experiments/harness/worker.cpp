@@ -143,7 +143,7 @@ class Worker {
     try {
       seconds = checkCell(run, cell.number, {*device, kernels, oracles_, job_.folder, under});
     } catch (const Error& error) {
-      run.status = cellStatus(error.code());
+      run.status = statusOf(error.code());
       run.message = error.what();
     } catch (const std::bad_alloc&) {
       run.status = "error";
@@ -175,7 +175,7 @@ class Worker {
     if (varies) sample["error"] = Json::parse(differenceText(errorOf(scene, resolved, frame.image, oracles_)));
     send(out_, sample);
   } catch (const Error& error) {
-    send(out_, ended(cellStatus(error.code()), error.what()));
+    send(out_, ended(statusOf(error.code()), error.what()));
   } catch (const std::bad_alloc&) {
     send(out_, ended("error", "out of memory"));
   }

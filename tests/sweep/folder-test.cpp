@@ -1,0 +1,116 @@
+// Folders that a sweep refuses stay as they are, byte for byte; one that is full is not the end of it.
+#include <catch2/catch.hpp>
+#include <map>
+
+#include "running.h"
+
+using namespace tessera::test;
+namespace fs = std::filesystem;
+
+namespace {
+
+std::map<std::string, std::string> bytesOf(const Desk& desk) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : fs::recursive_directory_iterator(desk.path()))
+    if (entry.is_regular_file()) {
+      const std::string name = fs::relative(entry.path(), desk.path()).string();
+      files[name] = desk.read(name);
+    }
+  return files;
+}
+
+void checkRefused(const Desk& desk, const std::string& arguments, const std::string& reason) {
+  const auto before = bytesOf(desk);
+  const auto outcome = desk.tessera("sweep " + arguments);
+  INFO(arguments << ": " << outcome.err);
+  CHECK(outcome.code == 2);
+  CHECK(outcome.complainsOnce());
+  CHECK(outcome.err.find(reason) != std::string::npos);
+  CHECK(bytesOf(desk) == before);
+}
+
+}  // namespace
+
+TEST_CASE("Folders and inputs that will not do are refused in a line") {
+  Desk desk;
+  desk.write("tile.toml", tileSweep(1, 1));
+  desk.write("other.toml", tileSweep(2, 1));
+  fs::create_directory(desk.path() / "thesis");
+  desk.write("thesis/chapter.txt", "years of work\n");
+  for (const std::string resume : {"", " --resume"}) {
+    checkRefused(desk, "tile.toml --out thesis" + resume, "holds chapter.txt and no sweep");
+    checkRefused(desk, "tile.toml --out other.toml" + resume, "is a file");
+  }
+  REQUIRE(desk.tessera("sweep tile.toml --out out").code == 0);
+  checkRefused(desk, "tile.toml --out out", "--resume goes on with it");
+  checkRefused(desk, "other.toml --out out --resume", "of another file");
+  checkRefused(desk, "tile.toml --out new --job cube@cpu", "there are ball@cpu");
+  checkRefused(desk, "tile.toml --out new --quick", "quick");
+
+  const std::string journal = desk.read("out/journal.jsonl");
+  const std::string version = "\"schema_version\":2";
+  const std::size_t at = journal.find(version);
+  REQUIRE(at != std::string::npos);
+  desk.write("out/journal.jsonl", std::string(journal).replace(at, version.size(), "\"schema_version\":1"));
+  checkRefused(desk, "tile.toml --out out --resume", "rows of version 1");
+  desk.write("out/journal.jsonl", "{\"kind\":\"shopping\"}\n");
+  checkRefused(desk, "tile.toml --out out --resume", "journal.jsonl:1: no line of a sweep's journal");
+  desk.write("out/journal.jsonl", journal + "{}\n");
+  checkRefused(desk, "tile.toml --out out --resume", "no line of a sweep's journal");
+
+  desk.write("gone.toml", tileSweep(1, 1, "devices = [\"vulkan:of another house\"]"));
+  checkRefused(desk, "gone.toml --out new", "no such device");
+  desk.write("bad.obj", "v 1 2\n");
+  std::string bad = tileSweep(1, 1);
+  bad.replace(bad.find("generate:icosphere?level=2"), 26, "bad.obj");
+  desk.write("bad.toml", bad);
+  checkRefused(desk, "bad.toml --out new", "bad.obj:1");
+  CHECK_FALSE(fs::exists(desk.path() / "new"));
+}
+
+TEST_CASE("A scene that has changed does not resume") {
+  Desk desk;
+  desk.write("two.obj", twoTriangles());
+  std::string sweep = tileSweep(2, 1);
+  sweep.replace(sweep.find("generate:icosphere?level=2"), 26, "two.obj");
+  desk.write("tile.toml", sweep);
+  REQUIRE(desk.tessera("sweep tile.toml --out out").code == 0);
+  const std::string journal = desk.read("out/journal.jsonl");
+  desk.write("out/journal.jsonl", journal.substr(0, journal.rfind('\n', journal.size() - 2) + 1));
+  desk.write("two.obj", twoTriangles() + "v 9 9 9\n");
+  checkRefused(desk, "tile.toml --out out --resume", "its scene is not what it was");
+}
+
+TEST_CASE("One sweep at a time writes to a folder") {
+  Desk desk;
+  desk.write("tile.toml", tileSweep(100, 2));
+  Running first(desk, "sweep tile.toml --out out");
+  REQUIRE(first.until([&] { return desk.read("out/journal.jsonl").find("\"sample\"") != std::string::npos; }));
+  const auto second = desk.tessera("sweep tile.toml --out out --resume");
+  CHECK(second.code == 2);
+  CHECK(second.complainsOnce());
+  CHECK(second.err.find("another sweep is writing") != std::string::npos);
+  CHECK(first.wait() == 0);
+}
+
+TEST_CASE("A full disk is one line and the sweep goes on once there is room") {
+  Desk desk;
+  desk.write("tile.toml", tileSweep(20, 2));
+  REQUIRE(desk.tessera("sweep tile.toml --out whole").code == 0);
+  // A limit on the size of a file stands for the disk: writes come short, then fail. Blocks of 512 bytes.
+  const auto full = desk.tessera("sweep tile.toml --out out", "trap '' XFSZ; ulimit -f 60;");
+  INFO(full.err);
+  CHECK(full.code == 1);
+  CHECK(full.complainsOnce());
+  CHECK(full.err.find("journal.jsonl: could not be written") != std::string::npos);
+  const std::string journal = desk.read("out/journal.jsonl");
+  CHECK(journal.size() <= 60 * 512);
+  CHECK(journal.back() == '\n');
+  CHECK(journal.find("\"sample\"") != std::string::npos);
+
+  const auto resumed = desk.tessera("sweep tile.toml --out out --resume");
+  INFO(resumed.err);
+  REQUIRE(resumed.code == 0);
+  CHECK(desk.read("out/journal.jsonl").starts_with(journal));
+  CHECK(timelessRows(desk, "out") == timelessRows(desk, "whole"));
+}
