@@ -151,7 +151,7 @@ def capacity(path, sweep, places):
   for row in axes:
     for one in row[1:]:
       one.tick_params(labelleft=False)
-  axes[0][0].set_ylabel("time over exact bins'")
+  axes[0][0].set_ylabel("time over that of exact bins")
   axes[1][0].set_ylabel("wrong pixels, % of raster")
   legend(figure, axes[0][0], len(names))
   save(figure, path)

@@ -139,12 +139,12 @@ def winner(group, cells, axes):
           "equal": quantity(len(equal))}, [first, *equal]
 
 
-def common(sets):
-  """What is in all of some sets, in the first one's order."""
-  return [value for value in sets[0] if all(value in other for other in sets[1:])]
+def common(sets, order):
+  """What is in all of some sets."""
+  return [value for value in order if all(value in other for other in sets)]
 
 
-def valuesOf(cells_, axis): return list(dict.fromkeys(cell.values[axis] for cell in cells_))
+def valuesOf(cells_, axis, order): return [value for value in order if any(cell.values[axis] == value for cell in cells_)]
 
 
 def find(group, **values):
@@ -185,8 +185,8 @@ def tileSize(sweep):
   return {
       **sweepOf(sweep, "tile-size"), "tiles": tiles, "binnings": binnings, "places": scenes,
       # Among the fastest, that is the fastest or equal to it, on every scene.
-      "commonTiles": common([valuesOf(cells_, "tile") for cells_ in winners]),
-      "commonBinnings": common([valuesOf(cells_, "binning") for cells_ in winners]),
+      "commonTiles": common([valuesOf(cells_, "tile", tiles) for cells_ in winners], tiles),
+      "commonBinnings": common([valuesOf(cells_, "binning", binnings) for cells_ in winners], binnings),
       "safest": {"name": f"binning={safest[0]} tile={safest[1]}", "worst": factor(whole[safest])},
       "leastSpread": least(spreads), "mostSpread": most(spreads),
   }
@@ -276,7 +276,7 @@ def cells(sweep):
   areas, winners = [], []
   for group in groups:
     best, fastest = winner(group, group.candidates, axes)
-    winners.append(valuesOf(fastest, "traversal"))
+    winners.append(valuesOf(fastest, "traversal", traversals))
     areas.append({
         **sceneOf(group), "area": area(float(group.cells[0].values["x"])), "best": best, "equals": quantity(len(fastest) - 1),
         "ratios": [timeOf(find(group, **{**kReference, "traversal": traversal}), fastest) for traversal in traversals],
