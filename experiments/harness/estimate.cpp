@@ -12,6 +12,7 @@
 #include "host/cli/common.h"
 #include "host/cli/measure.h"
 #include "host/cli/progress.h"
+#include "host/error.h"
 #include "host/oracle-image.h"
 #include "host/rasterizer.h"
 #include "host/reference.h"
@@ -141,34 +142,41 @@ Estimate estimate(const Sweep& sweep, const std::vector<Cell>& cells, const Surv
   Meter meter(sweep, survey);
   Estimate result;
   const double frames = 2 + static_cast<double>(sweep.rounds) * (sweep.warmUp + sweep.repeats);
+  const auto addGroup = [&](const std::vector<const Cell*>& run, const GroupTimes& times, double oracle) {
+    std::set<std::string> images;
+    if (!sweep.truth.values().empty()) images.insert(imageText(sweep.truth));
+    for (const Cell* const cell : run) {
+      std::optional<double> ratio;
+      if (!cell->reference && !cell->twin) {
+        ratio = ratios.of(sweep.scenes[cell->scene], *cell);
+        ++result.others;
+        result.fromRows += ratio.has_value();
+      }
+      images.insert(survey.cells[cell->number].image);
+      const double frame = std::min(sweep.timeLimitS, times.frame * ratio.value_or(1));
+      result.seconds += times.first + times.attribute + frames * frame;
+    }
+    result.nothing = false;
+    result.seconds += static_cast<double>(images.size()) * oracle;
+  };
   cli::Progress progress("measuring the references", cells.empty() ? 0 : cells.back().group + 1);
   for (auto first = cells.begin(); first != cells.end();) {
     const auto last = std::find_if(first, cells.end(), [&](const Cell& cell) { return cell.group != first->group; });
     std::vector<const Cell*> run;
     for (auto cell = first; cell != last; ++cell)
       if (!survey.cells[cell->number].refused) run.push_back(&*cell);
-    if (!run.empty()) {
-      const auto reference = std::ranges::find_if(run, &Cell::reference);
-      const Cell& measured = reference == run.end() ? *run.front() : **reference;
-      progress.at(first->group, cellName(sweep, measured));
-      const GroupTimes times = meter.measure(measured);
-      std::set<std::string> images;
-      if (!sweep.truth.values().empty()) images.insert(imageText(sweep.truth));
-      for (const Cell* const cell : run) {
-        std::optional<double> ratio;
-        if (!cell->reference && !cell->twin) {
-          ratio = ratios.of(sweep.scenes[cell->scene], *cell);
-          ++result.others;
-          result.fromRows += ratio.has_value();
-        }
-        images.insert(survey.cells[cell->number].image);
-        const double frame = std::min(sweep.timeLimitS, times.frame * ratio.value_or(1));
-        result.seconds += times.first + times.attribute + frames * frame;
-      }
-      result.nothing = false;
-      result.seconds += static_cast<double>(images.size()) * meter.oracle(measured);
-    }
     first = last;
+    if (run.empty()) continue;
+    const auto reference = std::ranges::find_if(run, &Cell::reference);
+    const Cell& measured = reference == run.end() ? *run.front() : **reference;
+    progress.at(measured.group, cellName(sweep, measured));
+    try {
+      const GroupTimes times = meter.measure(measured);
+      addGroup(run, times, meter.oracle(measured));
+    } catch (const Error& error) {
+      result.unmeasured += run.size();
+      result.whyNot = error.what();
+    }
   }
   result.uncompiled = meter.uncompiled();
   const auto compiling = meter.compilingS();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "experiments/harness/survey.h"
@@ -13,6 +14,8 @@ struct Estimate {
   bool nothing = true;             ///< no cell runs here
   std::size_t others = 0;          ///< cells that run here and are no references, of which
   std::size_t fromRows = 0;        ///< these have a ratio to their reference in results.jsonl; the rest count as 1
+  std::size_t unmeasured = 0;      ///< cells that are not counted: their group's reference failed
+  std::string whyNot;              ///< the last of these: one line
   std::size_t uncompiled = 0;      ///< kernels that are still to be compiled
   bool compilingIsCounted = true;  ///< false where nothing was compiled now, so that its time is not known
 };

@@ -50,8 +50,8 @@ std::string expandJson(const Sweep& sweep, const std::vector<Cell>& cells, const
                              {"twin", cell.twin},
                              {"refused", refused ? nlohmann::ordered_json(*refused) : nlohmann::ordered_json()}});
   }
-  json["estimate_s"] =
-      estimate ? nlohmann::ordered_json(std::round(10 * estimate->seconds) / 10) : nlohmann::ordered_json();
+  json["estimate_s"] = estimate && !estimate->nothing ? nlohmann::ordered_json(std::round(10 * estimate->seconds) / 10)
+                                                      : nlohmann::ordered_json();
   return json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n';
 }
 
@@ -119,7 +119,11 @@ std::string duration(double seconds) {
 }
 
 std::string estimateText(const Estimate& estimate) {
-  if (estimate.nothing) return "none of it runs here\n";
+  const std::string missing = estimate.unmeasured == 0
+                                  ? ""
+                                  : fmt::format("{} cells are not counted, since their reference failed: {}\n",
+                                                grouped(estimate.unmeasured), estimate.whyNot);
+  if (estimate.nothing) return missing.empty() ? "none of it runs here\n" : missing;
   std::string text = fmt::format("about {} here, by the references' times, measured now", duration(estimate.seconds));
   if (estimate.others != 0 && estimate.fromRows == 0)
     text += ", if every other cell takes as long: no results.jsonl beside the sweep has ratios";
@@ -128,7 +132,7 @@ std::string estimateText(const Estimate& estimate) {
                         grouped(estimate.others),
                         estimate.fromRows < estimate.others ? "; the rest count as their references" : "");
   if (!estimate.compilingIsCounted) text += fmt::format("; compiling ({}) comes on top", grouped(estimate.uncompiled));
-  return text + '\n';
+  return text + '\n' + missing;
 }
 
 ExitCode expand(const ExpandOptions& options) {

@@ -1,6 +1,8 @@
 // Real meshes, read where Debian's libcgal-demo installs them: the counts are those of the files' headers.
+#include <chrono>
 #include <cstdlib>
 
+#include "datasets/installed-mesh.h"
 #include "fixture.h"
 
 using namespace tessera;
@@ -27,4 +29,24 @@ TEST_CASE("Real meshes are read whole") {
     CHECK(mesh.triangles.size() == triangles);
     CHECK(mesh.normals.size() == vertices);
   }
+}
+
+TEST_CASE("An installed mesh is an input by name") {
+  const Scene scene = loadInput("mesh:ChineseDragon-10kv", 32, 16);
+  CHECK(scene.name == "ChineseDragon-10kv");
+  CHECK(scene.triangles.size() == 19994);
+  CHECK((scene.width == 32 && scene.height == 16));
+  const Files files;
+  const std::string path = files.write("a.toml", "[[mesh]]\nsource = \"mesh:ChineseDragon-10kv\"\n");
+  CHECK(loadInput(path, 32, 16).positions == scene.positions);
+  // Unpacked again where it is older than the archive: a new package may have another mesh.
+  const auto mesh = installedMesh("ChineseDragon-10kv");
+  const auto older =
+      std::filesystem::last_write_time("/usr/share/doc/libcgal-demo/data.tar.gz") - std::chrono::hours(1);
+  std::filesystem::last_write_time(mesh, older);
+  CHECK(installedMesh("ChineseDragon-10kv") == mesh);
+  CHECK(std::filesystem::last_write_time(mesh) > older);
+  CHECK(usageError([] { loadInput("mesh:none"); }).starts_with("mesh:none: data/meshes/none.off could not be taken"));
+  CHECK(usageError([] { loadInput("mesh:../../x"); }).starts_with("mesh:../../x: not a name"));
+  CHECK(usageError([] { loadInput("mesh:"); }).starts_with("mesh:: not a name"));
 }

@@ -68,6 +68,7 @@ TEST_CASE("The reference and its twin stand where the reference's values are") {
     for (std::size_t i = 0; i < all.size(); ++i) {
       if (!all[i].reference) continue;
       ++references;
+      REQUIRE(i + 1 < all.size());
       CHECK(all[i + 1].twin);
       CHECK(all[i + 1].labels == all[i].labels);
       name = variantName(sweep, all[i]);

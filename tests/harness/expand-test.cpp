@@ -98,6 +98,18 @@ TEST_CASE("expand takes ratios from rows beside the sweep and says so") {
   CHECK(says(counted, " min here"));  // a million times its reference: the time limit's 60 s a frame
 }
 
+TEST_CASE("expand says which cells it could not measure") {
+  Desk desk;
+  desk.write(
+      "a.toml",
+      "title = \"T\"\nquestion = \"Q\"\nsizes = [64]\n[scenes]\nsoup = \"generate:soup?count=2000\"\n[set]\nbinning = "
+      "\"queue\"\ncapacity = 16\n[axes]\noverflow = [\"error\", \"retry\"]\n");
+  const auto outcome = desk.tessera("expand a.toml");
+  INFO(outcome.out << outcome.err);
+  CHECK(outcome.code == 0);
+  CHECK(says(outcome.out, "3 cells are not counted, since their reference failed: "));
+}
+
 TEST_CASE("expand refuses a broken sweep in one line") {
   Desk desk;
   write(desk);
