@@ -25,15 +25,16 @@ def crossings(points):
 
 def compared(groups, name, other, one, two):
   """Two cells over the areas; `one` and `two` find them in a group."""
-  points = []
+  points, curve = [], []
   for group in groups:
     a, b = one(group), two(group)
     ratio = group.compare(a, b) if a and b else None
     if ratio:
       points.append((float(group.cells[0].values["x"]), ratio.median, ratio.equal))
+      curve.append({"area": points[-1][0], "ratio": ratio.median, "low": ratio.low, "high": ratio.high})
   verdicts = ["equal" if equal else "faster" if ratio < 1 else "slower" for _, ratio, equal in points]
   return {"name": name, "other": other, **{verdict: verdicts.count(verdict) for verdict in ("faster", "equal", "slower")},
-          "curve": [{"area": area, "ratio": ratio, "equal": equal} for area, ratio, equal in points],
+          "curve": curve,
           "crossings": [{"at": at, "low": low, "high": high, "faster": below} for at, low, high, below in crossings(points)]}
 
 

@@ -177,9 +177,9 @@ def cells(path, sweep, values):
   for axes, kind in ((step, "step"), (size, "size-class")):
     for pair in values["pairs"]:
       if pair["kind"] == kind:
-        points = [(point["area"], point["ratio"], point["ratio"], point["ratio"]) for point in pair["curve"]]
-        changes += [point[1] for point in points]
-        curve(axes, names, pair["traversal"], points, errors=False)
+        points = [(point["area"], point["ratio"], point["low"], point["high"]) for point in pair["curve"]]
+        changes += [value for point in points for value in point[1:]]
+        curve(axes, names, pair["traversal"], points)
   ratioAxis(one, heights)
   for axes in (step, size):
     ratioAxis(axes, changes)
