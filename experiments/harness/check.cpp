@@ -26,7 +26,8 @@ Variant counting(Variant variant) {
 
 std::string imageText(const Variant& resolved) {
   std::string text;
-  for (const char* const axis : {"cull", "fill", "interpolate", "sub-pixel"}) text += resolved.get(axis) + ' ';
+  for (const Axis& axis : axes())
+    if (axis.kind() == AxisKind::kImage) text += resolved.get(axis.name) + ' ';
   return text;
 }
 
@@ -73,8 +74,13 @@ void writePicture(Run& run, std::size_t number, const Framebuffer& image, const 
   picture.height = image.height;
   picture.colour = differencePicture(oracle.expected(image), image);
   run.picture = fmt::format("pictures/{}.png", number);
-  std::filesystem::create_directories(tools.folder / "pictures");
-  writeImage(tools.folder / run.picture, picture);
+  try {
+    std::filesystem::create_directories(tools.folder / "pictures");
+    writeImage(tools.folder / run.picture, picture);
+  } catch (const std::exception& error) {
+    throw PictureFailed(fmt::format("{}: could not be written: {}; --resume goes on once there is room",
+                                    (tools.folder / run.picture).string(), error.what()));
+  }
 }
 
 }  // namespace

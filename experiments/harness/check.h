@@ -4,6 +4,7 @@
 #include <functional>
 #include <list>
 #include <memory>
+#include <stdexcept>
 
 #include "experiments/harness/request.h"
 #include "host/cli/parity-oracle.h"
@@ -35,6 +36,11 @@ struct CheckTools {
   Oracles& oracles;
   std::filesystem::path folder;  ///< of the results
   std::function<void(const std::function<void()>&)> frame;
+};
+
+/// The results folder cannot be written, which is no fault of the cell.
+struct PictureFailed : std::runtime_error {
+  using std::runtime_error::runtime_error;
 };
 
 /// Fills `run`, which holds scene, variant as asked for, device and tools: plan, counters, error, picture, and status

@@ -371,7 +371,7 @@ void runSweep(const SweepOptions& options) {
   try {
     if (!wasDone) runner.run();
   } catch (const Interrupted&) {
-    if (!runner.isOpen()) throw Error(ExitCode::kInterrupted, "sweep: stopped before anything was rendered");
+    if (!runner.isOpen()) throw Error(ExitCode::kInterrupted, "sweep: stopped before anything more was rendered");
     runner.close();
     deriveRows(options.folder);
     throw Error(ExitCode::kInterrupted, fmt::format("sweep: stopped with {} of {} steps done; --resume goes on with {}",

@@ -114,3 +114,21 @@ TEST_CASE("A full disk is one line and the sweep goes on once there is room") {
   CHECK(desk.read("out/journal.jsonl").starts_with(journal));
   CHECK(timelessRows(desk, "out") == timelessRows(desk, "whole"));
 }
+
+TEST_CASE("A picture that cannot be written is no fault of its cell") {
+  Desk desk;
+  desk.write("tile.toml", tileSweep(1, 1) + "[truth]\nsub-pixel = 0\n");
+  REQUIRE(desk.tessera("sweep tile.toml --out out").code == 0);
+  REQUIRE(sizeOf(desk, "out/pictures/3.png") > 0);
+  const std::string journal = desk.read("out/journal.jsonl"), rows = desk.read("out/rows.jsonl");
+  const std::string head = journal.substr(0, journal.find('\n') + 1);
+  fs::remove_all(desk.path() / "out/pictures");
+  desk.write("out/pictures", "in the way\n");
+  desk.write("out/journal.jsonl", head);
+  const auto outcome = desk.tessera("sweep tile.toml --out out --resume");
+  CHECK(outcome.code == 1);
+  CHECK(outcome.complainsOnce());
+  CHECK(outcome.err.find("pictures/0.png: could not be written") != std::string::npos);
+  CHECK(desk.read("out/rows.jsonl") == rows);
+  CHECK(journalLines(desk, "out", "cell").empty());
+}
