@@ -5,10 +5,7 @@ from pathlib import Path
 import shutil
 import sys
 
-try:
-  import rows
-except ModuleNotFoundError as error:
-  sys.exit(f"tessera: {sys.executable} has no {error.name}: './dev build' installs a Python that has what tools/report.txt lists")
+from refused import Refused
 
 
 def writeBeside(path, content):
@@ -18,12 +15,11 @@ def writeBeside(path, content):
   os.replace(new, path)
 
 
-def writeFigures(folder, plots):
-  """The names of the figures. Those of an earlier report go: they may not be of these rows."""
+def writeFigures(folder, plots, main):
+  """The names of the figures, of which `main` is copied to figure.*. Those of an earlier report go: they may not be of these rows."""
   import figures
   shutil.rmtree(folder, ignore_errors=True)
   folder.mkdir()
-  main = plots.figure()
   names = []
   for plot in plots.list:
     for name, kind, content in figures.files(plot):
@@ -36,12 +32,14 @@ def writeFigures(folder, plots):
 
 def checkExport(path):
   if path.suffix not in (".parquet", ".duckdb"):
-    raise rows.Refused(f"{path}: --export writes Parquet and DuckDB files; a name that ends in .parquet or .duckdb would do")
+    raise Refused(f"{path}: --export writes Parquet and DuckDB files; a name that ends in .parquet or .duckdb would do")
   if not path.absolute().parent.is_dir():
-    raise rows.Refused(f"{path}: its folder is not there; one that is would do")
+    raise Refused(f"{path}: its folder is not there; one that is would do")
 
 
 def main():
+  import rows  # here, as the modules that follow: run() says in a line which library is not there
+
   parser = argparse.ArgumentParser(prog="tessera report")
   parser.add_argument("folder", type=Path)
   parser.add_argument("--schema", type=int, required=True)
@@ -53,14 +51,15 @@ def main():
   if arguments.export:
     checkExport(arguments.export)
 
-  # Only now, since these take a second and what is wrong with a folder should be said at once.
+  # These take a second, and what is wrong with a folder should be said at once.
   import export
   import page
   import plots as plots_
   plots = plots_.Plots(sweep, arguments.all_devices)
+  figure = plots.figure()
   report = arguments.folder / "report"
   report.mkdir(exist_ok=True)
-  names = writeFigures(report / "figures", plots)
+  names = writeFigures(report / "figures", plots, figure)
   content = page.Page(sweep, plots, names).html().encode()
   writeBeside(report / "index.html", content)
   print(f"wrote {report / 'index.html'} ({len(content) / 1e6:.1f} MB) and {len(names)} figures in {report / 'figures'}")
@@ -74,11 +73,18 @@ def complain(line, code):
   return code
 
 
-try:
-  main()
-except rows.Refused as refused:
-  sys.exit(complain(refused, 2))
-except OSError as error:
-  sys.exit(complain(f"{error.filename}: {error.strerror}", 1))
-except KeyboardInterrupt:
-  sys.exit(130)
+def run():
+  try:
+    main()
+  except ModuleNotFoundError as error:
+    return complain(f"{sys.executable} has no {error.name}: './dev build' installs a Python that has what tools/report.txt lists", 1)
+  except Refused as error:
+    return complain(error, 2)
+  except OSError as error:
+    return complain(f"{error.filename}: {error.strerror}", 1)
+  except KeyboardInterrupt:
+    return 130
+  return 0
+
+
+sys.exit(run())

@@ -35,7 +35,7 @@ def axis(kind, title, field, span, ticks, texts, logarithmic):
 
 def words(kind, title, field, order):
   return kind(f"{field}:N", title=title or None, sort=order, scale=alt.Scale(domain=order),
-              axis=alt.Axis(labelAngle=-30 if kind is alt.X and len(order) > 2 else 0, grid=False))
+              axis=alt.Axis(labelAngle=-30 if kind is alt.X and sum(map(len, order)) > 32 else 0, grid=False))
 
 
 def curveScales(curves):

@@ -1,6 +1,7 @@
 """The page: one file that needs no network."""
 from html import escape
 import json
+from pathlib import Path
 
 import altair
 import vl_convert
@@ -95,8 +96,9 @@ class Page:
       for cell in group.fastest(group.candidates):
         wins.setdefault(words.cellName(cell, self.sweep.swept), []).append((cell, group))
     name, won = max(wins.items(), key=lambda item: len(item[1]))
-    speeds = sorted(1 / cell.ratio.median for cell, _ in won if cell.ratio and not cell.reference)
-    speed = f", {words.span(speeds)} times as fast as the reference" if speeds else ", which is the reference" if won[0][0].reference else ""
+    speeds = sorted(1 / cell.ratio.median for cell, _ in won if cell.ratio and not cell.ratio.equal)
+    speed = f", {words.span(speeds)} times as fast as the reference" if speeds else ", which is the reference" if won[0][0].reference else ", equal to the reference"
+    speed += f" in {len(speeds)} of them and equal to it in the rest" if 0 < len(speeds) < len(won) else ""
     wrong = ", though not without errors" if any(cell.mismatches() for cell, _ in won) else ""
     if len(groups) == 1:
       names = [words.cellName(cell, self.sweep.swept) for cell in groups[0].fastest(groups[0].candidates)]
@@ -184,16 +186,17 @@ class Page:
     figures = []
     for picture in made:
       first = picture.cells[0]
-      counts = [f"{words.significant(value)} {words.kErrors.get(name, name)}{origin}"
+      counts = [f"{words.pixels(value, name)}{origin}"
                 for source, origin in (("error", ""), ("truth_error", f" {self.plots.truthWords()}"))
                 for name, value in first.row.get(source, {}).items()
                 if name.endswith("_mismatch") and value and (source == "error" or value != first.row.get("error", {}).get(name))]
       names = ", ".join([*(first.values.get(place, "") for place in self.places), words.cellName(first, self.sweep.swept)])
       others = f" The same in {words.count(len(picture.cells) - 1, 'other cell')}: {', '.join(str(cell.number) for cell in picture.cells[1:])}." if picture.cells[1:] else ""
+      name = escape(first.row["picture"])
       (width, height), (small, _) = picture.size, picture.shown
       size = f"{width} \u00d7 {height} pixels" + ("" if small == width else f", each pixel here the most different of {picture.factor} \u00d7 {picture.factor}")
       figures.append(f'<figure><img decoding="async" src="{picture.uri}" width="{picture.shown[0]}" height="{picture.shown[1]}" alt="Where the image of cell {first.number} '
-                     f'differs: {escape("; ".join(counts))}"><figcaption><b>{escape(names)}</b> (cell {first.number}). {escape("; ".join(counts))}. {size}.{others}</figcaption></figure>')
+                     f'differs: {escape("; ".join(counts))}"><figcaption><b>{escape(names)}</b> (cell {first.number}). {escape("; ".join(counts))}. {size}; <a href="../{name}">as it is</a>.{others}</figcaption></figure>')
     return ("pictures", "Where images differ", f'<p class="note">{key}. A picture that is shown smaller keeps of each block the pixel that differs most, so that a '
             f'single wrong pixel is still seen. A cell with errors from its own oracle shows these, else those from the truth.</p><div class="pictures">{"".join(figures)}</div>')
 
@@ -311,8 +314,7 @@ class Page:
     # A script's text ends at the first "</": in JSON it can be written in another way.
     data = json.dumps({"config": charts.kConfig, "specs": self.specs}, separators=(",", ":")).replace("</", "<\\/").replace("<!--", "<\\u0021--")
     bundle = vl_convert.javascript_bundle(vl_version=".".join(altair.SCHEMA_VERSION.lstrip("v").split(".")[:2]))
-    here = __file__.rpartition("/")[0]
-    read = lambda name: open(f"{here}/{name}", encoding="utf-8").read()
+    read = lambda name: Path(__file__).with_name(name).read_text(encoding="utf-8")
     # The policy keeps the page from asking for anything: Vega compiles expressions, hence 'unsafe-eval'.
     return f"""<!DOCTYPE html>
 <html lang="en">

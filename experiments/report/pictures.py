@@ -6,8 +6,10 @@ import io
 import numpy
 from PIL import Image
 
-kEdges = (512, 384, 256, 128)  # of the pictures on the page, at most; the largest that fits is taken
-kBudget = 3_000_000            # bytes of all pictures, as they stand in the page
+# Of the pictures on the page, at most; the largest that fits the budget is taken. The page shows none smaller than it is, or a
+# single wrong pixel could be lost on the way to the screen.
+kEdges = (256, 192, 128, 64)
+kBudget = 3_000_000  # bytes of all pictures, as they stand in the page
 
 
 def pool(pixels, edge):

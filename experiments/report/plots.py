@@ -3,7 +3,8 @@ figures.py on paper, so that both show the same."""
 from dataclasses import dataclass, field
 import math
 
-from rows import Refused, kPlaces, number
+from refused import Refused
+from rows import kPlaces, number
 import scales
 import words
 

@@ -8,13 +8,10 @@ from pathlib import Path
 import tomllib
 
 import ratios
+from refused import Refused
 
 # What a cell can be told apart by besides the axes; "x" is the number of its scene.
 kPlaces = ("machine", "scene", "size", "device", "threads")
-
-
-class Refused(Exception):
-  """One line: file, place, what is wrong, what would be right."""
 
 
 @dataclass

@@ -48,6 +48,12 @@ def count(number, one, many=None):
   return f"{number:,} {one if number == 1 else many or one + 's'}"
 
 
+def pixels(number, field):
+  """"1 pixel with another depth", "1,234 pixels ..."."""
+  name = kErrors.get(field, field)
+  return f"{significant(number)} {name.replace('pixels', 'pixel', 1) if number == 1 else name}"
+
+
 def listing(items):
   """"a", "a and b", "a, b and c"."""
   items = list(items)

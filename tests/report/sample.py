@@ -77,11 +77,12 @@ def rows(folder, machines=((kEpyc, "cpu", 1.0), (kPipe, "vulkan", 30.0), (kXeon,
           times = lambda turns: [round(1e6 * ms * drift[turn] * random_.gauss(1, 0.01)) for turn in turns]
           turns = list(range(kRounds))
           sessions = [0 if turn < 4 else 1 for turn in turns]
-          samples = sorted(times(turns))
+          samples = times(turns)
+          ordered = sorted(samples)
           if row["status"] == "ok":
-            median = samples[kRounds // 2]
-            row["time_ns"] = {"samples": times(turns), "rounds": turns, "sessions": sessions, "median": median, "min": samples[0],
-                              "iqr": samples[5] - samples[1], "clock": "timestamp" if device == "vulkan" else "wall",
+            median = ordered[kRounds // 2]
+            row["time_ns"] = {"samples": samples, "rounds": turns, "sessions": sessions, "median": median, "min": ordered[0],
+                              "iqr": ordered[5] - ordered[1], "clock": "timestamp" if device == "vulkan" else "wall",
                               "stages": {stage: share * median for stage, share in kStages.items()}}
             if index < 2:  # a sweep that was resumed in round 4
               row["time_ns"]["again"] = {"samples": times([0, 1]), "rounds": [0, 1], "sessions": [1, 1]}

@@ -1,0 +1,118 @@
+"""The command itself: what it writes, and what it says to folders that are not as they should be. TESSERA names the program."""
+import hashlib
+import json
+import tempfile
+import unittest
+from pathlib import Path
+
+import support
+import duckdb
+import sample
+from support import only, tessera
+
+
+class Command(unittest.TestCase):
+  def setUp(self):
+    self.temporary = tempfile.TemporaryDirectory()
+    self.folder = Path(self.temporary.name) / "results"
+
+  def tearDown(self):
+    self.temporary.cleanup()
+
+  def refused(self, result, code, *parts):
+    """One line on stderr that has these parts, and no report."""
+    self.assertEqual(result.returncode, code, result.stderr)
+    self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
+    self.assertTrue(result.stderr.startswith("tessera: "), result.stderr)
+    for part in parts:
+      self.assertIn(part, result.stderr)
+    self.assertEqual(result.stdout, "")
+    self.assertFalse((self.folder / "report").exists())
+
+  def testNothingToReport(self):
+    self.refused(tessera("report", self.folder), 2, "results: not a folder", "tessera sweep")
+    self.folder.mkdir()
+    self.refused(tessera("report", self.folder), 2, "neither rows.jsonl nor journal.jsonl", "tessera sweep")
+    (self.folder / "rows.jsonl").write_text("\n")
+    self.refused(tessera("report", self.folder), 2, "rows.jsonl: no rows")
+
+  def testRowsThatAreNone(self):
+    rows = sample.write(self.folder, only(scene="ball", edge=256, device="cpu")) / "rows.jsonl"
+    lines = rows.read_text().splitlines(keepends=True)
+    def refusedWith(line, *parts):
+      rows.write_text("".join(lines[:2]) + line + "".join(lines[2:]))
+      self.refused(tessera("report", self.folder), 2, "rows.jsonl:3: ", *parts)
+    row = json.loads(lines[2])
+    refusedWith(lines[2][:80] + "\n", "not a line of JSON")
+    refusedWith("[1]\n", "not a row")
+    refusedWith(json.dumps(row | {"schema_version": 1}) + "\n", "schema version 1", f"reads version {support.kSchema}")
+    refusedWith(json.dumps({key: value for key, value in row.items() if key != "sweep"}) + "\n", "sweep: missing")
+    refusedWith(json.dumps(row | {"sweep": row["sweep"] | {"sha256": "f" * 64, "title": "Other"}}) + "\n", 'another sweep, "Other"', "than line 1")
+    rows.write_text("".join(lines + lines[:1]))
+    self.refused(tessera("report", self.folder), 2, f"rows.jsonl:{len(lines) + 1}: cell 0 of the same machine is in line 1")
+
+  def testSweepFilesOfOtherRows(self):
+    write = lambda toml: sample.write(self.folder, only(scene="ball", edge=256, device="cpu"), toml)
+    write(sample.kToml.replace('title = "Sample"', 'title = "Other"'))
+    self.refused(tessera("report", self.folder), 2, "sweep.toml: title", '"Other"', '"Sample"')
+    write(sample.kToml.replace('against = ["tile"', 'against = ["commit"'))
+    self.refused(tessera("report", self.folder), 2, 'sweep.toml: plot.against: "commit"', "tile, binning, edge")
+    write(sample.kToml.replace('"ratio-against-tile"', '"against-commit"'))
+    self.refused(tessera("report", self.folder), 2, 'sweep.toml: plot.figure: "against-commit"', "against-tile")
+    write("title = ")
+    self.refused(tessera("report", self.folder), 2, "sweep.toml: not TOML")
+
+  def testPlacesThatDoNotDo(self):
+    sample.write(self.folder, only(scene="ball", edge=256, device="cpu"))
+    self.refused(tessera("report", self.folder, "--export", "rows.csv"), 2, "rows.csv", ".parquet or .duckdb")
+    self.refused(tessera("report", self.folder, "--export", "/nowhere/rows.parquet"), 2, "/nowhere/rows.parquet")
+    self.refused(tessera("report", self.folder, TESSERA_PYTHON="/nowhere/python"), 1, "/nowhere/python", "TESSERA_PYTHON")
+    self.refused(tessera("report", self.folder, TESSERA_PYTHON="/usr/bin/python3"), 1, "/usr/bin/python3 has no", "./dev build")
+
+  def testTheSameRowsGiveTheSameFilesAndAnExport(self):
+    one = "\n".join(line for line in sample.kToml.splitlines() if not line.startswith("against")) + '\nagainst = ["tile"]\n'
+    files = []
+    for name, zone in (("rows.parquet", "UTC"), ("rows.duckdb", "Asia/Tokyo")):
+      folder = sample.write(self.folder.with_name(name + ".results"), only(edge=512, scene="ball", device="cpu"), one)
+      result = tessera("report", folder, "--export", folder / name, TZ=zone)
+      self.assertEqual((result.returncode, result.stderr), (0, ""))
+      self.assertIn(f"wrote {folder / name}", result.stdout)
+      self.checkExport(folder, folder / name)
+      files.append({str(path.relative_to(folder)): hashlib.sha256(path.read_bytes()).hexdigest() for path in sorted((folder / "report").rglob("*")) if path.is_file()})
+    self.assertEqual(*files)
+    for name in ("figure", "work-precision", "against-tile", "ratio-against-tile", "error-against-tile", "heat-tile-binning", "stages"):
+      for kind in ("svg", "pdf", "png"):
+        self.assertIn(f"report/figures/{name}.{kind}", files[0])
+    figures = folder / "report" / "figures"
+    self.assertEqual((figures / "figure.svg").read_bytes(), (figures / "ratio-against-tile.svg").read_bytes())
+
+  def checkExport(self, folder, file):
+    rows = [json.loads(line) for line in (folder / "rows.jsonl").read_text().splitlines()]
+    isTable = file.suffix == ".duckdb"
+    with duckdb.connect(str(file) if isTable else ":memory:", read_only=isTable) as database:
+      table = "rows" if isTable else f"'{file}'"
+      ask = lambda query: database.execute(query).fetchone()
+      self.assertEqual(ask(f"SELECT count(*) FROM {table}"), (len(rows),))
+      tile, ms, ratio, verdict, mismatch, first = ask(
+          f"SELECT variant.tile, ms, ratio, verdict, error.coverage_mismatch, time_ns.samples[1] FROM {table} WHERE machine = 'AMD EPYC' AND sweep.cell = 16")
+      row = next(row for row in rows if row["sweep"]["cell"] == 16)
+      self.assertEqual((tile, verdict, mismatch, first), ("8", "faster", row["error"]["coverage_mismatch"], row["time_ns"]["samples"][0]))
+      self.assertAlmostEqual(ms, row["time_ns"]["median"] / 1e6)
+      self.assertTrue(0.85 < ratio < 0.95)
+      self.assertEqual(ask(f"SELECT count(*) FROM {table} WHERE status = 'overflow' AND ms IS NULL"), (2,))
+
+  def testRowsOfASweepThatWasKilled(self):
+    """Rows come from the journal where they are missing."""
+    toml = Path(self.temporary.name) / "tiny.toml"
+    toml.write_text('title = "Tiny"\nquestion = "Is there a row?"\nsizes = [32]\nrounds = 2\nthreads = [1]\n[scenes]\nball = "generate:icosphere?level=1"\n[axes]\ntile = [32, 64]\n')
+    swept = tessera("sweep", toml, "--out", self.folder)
+    self.assertEqual(swept.returncode, 0, swept.stderr)
+    (self.folder / "rows.jsonl").unlink()
+    result = tessera("report", self.folder)
+    self.assertEqual(result.returncode, 0, result.stderr)
+    self.assertEqual(len((self.folder / "rows.jsonl").read_text().splitlines()), 3)
+    self.assertIn("Is there a row?", (self.folder / "report" / "index.html").read_text())
+
+
+if __name__ == "__main__":
+  unittest.main()
