@@ -17,6 +17,7 @@
 #include "experiments/harness/worker-process.h"
 #include "host/cli/progress.h"
 #include "host/error.h"
+#include "host/files.h"
 #include "host/row.h"
 
 namespace tessera::harness {
@@ -229,6 +230,9 @@ class Runner {
     journal_ = std::make_unique<Journal>(folder_);
     if (begun_) journal_->cut(begun_->bytes);
     removeHalfFiles(folder_);
+    // The report reads [plot] from it.
+    if (!fs::exists(folder_ / "sweep.toml") && !writeBeside(folder_ / "sweep.toml", sweep_.text))
+      fail(fmt::format("{}: could not be written", (folder_ / "sweep.toml").string()));
     session_ = begun_ ? begun_->sessions : 0;
     double load[3] = {};
     getloadavg(load, 3);
