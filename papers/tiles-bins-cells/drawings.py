@@ -1,16 +1,14 @@
 """The figures of main.typ, as SVG whose text Typst sets in the page's own type."""
 import math
-from pathlib import Path
-import sys
 
 import matplotlib
 from matplotlib import pyplot
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "experiments" / "report"))
-import figures  # noqa: E402
-import plots  # noqa: E402
-import scales  # noqa: E402
+import report  # noqa: F401, where the next three lie
+import figures
+import plots
+import scales
 
 kInch = 2.54
 kWidth = 17.4 / kInch  # of the page's text
