@@ -52,7 +52,7 @@ std::string expandJson(const Sweep& sweep, const std::vector<Cell>& cells, const
   }
   json["estimate_s"] = estimate && !estimate->nothing ? nlohmann::ordered_json(std::round(10 * estimate->seconds) / 10)
                                                       : nlohmann::ordered_json();
-  return json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n';
+  return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n';
 }
 
 /// A line a job.
