@@ -25,8 +25,8 @@ struct AttributeRequest {
 /// A mesh that OpenMesh reads (.obj .off .ply .stl), an installed one (`mesh:NAME`, see installed-mesh.h),
 /// `generate:NAME?key=value&...`, a scene (.toml) or a replay file (.replay). A lone mesh gets the camera of
 /// frameCamera(). Throws kUsage with one line: file, place, what is wrong, what would be right. `width` and `height`
-/// replace the scene's raster size (0: its own, 1024 for a lone mesh) and shape cameras, but for one given as a matrix. A
-/// flat generator fills the clip volume by the identity matrix. Every mesh has to have the attribute.
+/// replace the scene's raster size (0: its own, 1024 for a lone mesh) and shape cameras, but for one given as a matrix.
+/// A flat generator fills the clip volume by the identity matrix. Every mesh has to have the attribute.
 Scene loadInput(const std::string& input, std::uint32_t width = 0, std::uint32_t height = 0,
                 const AttributeRequest& attribute = {});
 
