@@ -69,7 +69,8 @@ class Page:
     for cell in real:
       statuses[cell.status] = statuses.get(cell.status, 0) + 1
     counts = ", ".join(f"{number:,} {status}" for status, number in statuses.items())
-    lines = [f"{words.count(len(real), 'cell')}: {counts}."]
+    quick = " of a --quick sweep" if sweep.cells[0].row["sweep"].get("quick") else ""
+    lines = [f"{words.count(len(real), 'cell')}{quick}: {counts}."]
     groups = [group for group in sweep.groups if group.candidates and not self.hidden(group)]
     if groups:
       if sweep.swept:

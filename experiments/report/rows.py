@@ -254,6 +254,8 @@ def readSweep(folder, schema, allDevices=False):
       raise Refused(f"{path}:{cell.line}: a row of another sweep, \"{cell.row['sweep']['title']}\" "
                     f"({cell.row['sweep']['sha256'][:12]}), than line {first.line}, \"{first.row['sweep']['title']}\" "
                     f"({first.row['sweep']['sha256'][:12]}); give each sweep a folder of its own")
+    if cell.row["sweep"].get("quick", False) != first.row["sweep"].get("quick", False):
+      raise Refused(f"{path}:{cell.line}: one of this row and line {first.line} is of a --quick sweep, the other is not; give each a folder of its own")
   seen = {}
   for cell in cells:
     other = seen.setdefault((cell.fullKey, cell.number), cell)
@@ -274,5 +276,7 @@ def readSweep(folder, schema, allDevices=False):
   about = first.row["sweep"]
   sweep = Sweep(folder, about["title"], about["question"], about["sha256"], cells,
                 [Group(members) for members in groups.values()], swept, {}, truth, [])
+  if about.get("quick"):
+    sweep.notes.append("These rows are of a --quick sweep, with sizes, rounds and scenes as in [quick].")
   sweep.plot = readPlot(folder, sweep)
   return sweep

@@ -48,6 +48,7 @@ class Command(unittest.TestCase):
     refusedWith(json.dumps(row | {"schema_version": 1}) + "\n", "schema version 1", f"reads version {support.kSchema}")
     refusedWith(json.dumps({key: value for key, value in row.items() if key != "sweep"}) + "\n", "sweep: missing")
     refusedWith(json.dumps(row | {"sweep": row["sweep"] | {"sha256": "f" * 64, "title": "Other"}}) + "\n", 'another sweep, "Other"', "than line 1")
+    refusedWith(json.dumps(row | {"sweep": row["sweep"] | {"quick": True}}) + "\n", "--quick", "line 1")
     rows.write_text("".join(lines + lines[:1]))
     self.refused(tessera("report", self.folder), 2, f"rows.jsonl:{len(lines) + 1}: cell 0 of the same machine is in line 1")
 
