@@ -50,6 +50,18 @@ def breakOf(plot, spans):
           alt.Chart(data([{"y": plot.zero * plots.kBreak}])).mark_rule(color=kFaint, strokeDash=[2, 3]).encode(y=alt.Y("y:Q"))]
 
 
+def joined(panel, x, y, colour):
+  """The panel's lines, the faint ones first."""
+  layers = []
+  for strong in (False, True):
+    found = [{"x": px, "y": py, "curve": curve, "line": index, "order": order} for index, (curve, best, points) in enumerate(panel.lines)
+             if best == strong for order, (px, py) in enumerate(points)]
+    if found:
+      layers.append(alt.Chart(data(found)).mark_line(strokeWidth=2 if strong else 0.8, opacity=1 if strong else 0.4).encode(
+          x=x, y=y, color=colour, detail="line:N", order="order:Q"))
+  return layers
+
+
 def precision(plot, panel, spans):
   colour, shape = curveScales(plot.curves)
   rows = [{"x": p.x, "y": p.y, "low": p.low, "high": p.high, "curve": p.curve, "says": p.says} for p in panel.points]
@@ -64,6 +76,7 @@ def precision(plot, panel, spans):
     layers += breakOf(plot, spans)
   if panel.band:
     layers.append(alt.Chart(data([{"low": panel.band[0], "high": panel.band[1]}])).mark_rect(color="#bbbbbb", opacity=0.45).encode(x=alt.X("low:Q"), x2="high"))
+  layers += joined(panel, x, y, colour)
   if len(panel.front) > 1:
     layers.append(alt.Chart(data([{"x": fx, "y": fy} for fx, fy in panel.front])).mark_line(
         interpolate="step-after", color=kFaint, strokeWidth=1.2).encode(x=x, y=y, order="x:Q"))
@@ -88,12 +101,7 @@ def lines(plot, panel, spans):
     layers += breakOf(plot, spans)
   if panel.band:
     layers.append(alt.Chart(data([{"low": panel.band[0], "high": panel.band[1]}])).mark_rect(color="#bbbbbb", opacity=0.45).encode(y=alt.Y("low:Q"), y2="high"))
-  for strong in (False, True):
-    found = [{"x": px, "y": py, "curve": curve, "line": index} for index, (curve, best, points) in enumerate(panel.lines)
-             if best == strong for px, py in points]
-    if found:
-      layers.append(alt.Chart(data(found)).mark_line(strokeWidth=2 if strong else 0.8, opacity=1 if strong else 0.35).encode(
-          x=x, y=y, color=colour, detail="line:N"))
+  layers += joined(panel, x, y, colour)
   if panel.levels:
     layers.append(alt.Chart(data([{"y": ly, "curve": curve, "says": says} for curve, ly, says in panel.levels])).mark_rule(
         strokeDash=[5, 3], strokeWidth=1.6).encode(y=y, color=colour, tooltip=alt.Tooltip("says:N", title=" ")))

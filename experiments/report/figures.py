@@ -43,6 +43,11 @@ def breakOf(axes, plot, spans):
   axes.axhline(plot.zero * plots_.kBreak, color="#8a8a8a", linewidth=0.7, dashes=(2, 2))
 
 
+def joined(axes, plot, panel):
+  for curve, best, points in panel.lines:
+    axes.plot(*zip(*points), color=plots_.style(plot.curves, curve)[0], linewidth=1.1 if best else 0.5, alpha=1 if best else 0.4)
+
+
 def precision(axes, plot, panel, spans):
   ticks = scales.ticks(*spans["x"], True)
   numbers(axes.xaxis, spans["x"], ticks, [scales.text(tick) for tick in ticks], True)
@@ -57,6 +62,7 @@ def precision(axes, plot, panel, spans):
     breakOf(axes, plot, spans)
   if panel.band:
     axes.axvspan(*panel.band, color="#bbbbbb", alpha=0.45, linewidth=0)
+  joined(axes, plot, panel)
   if len(panel.front) > 1:
     axes.step(*zip(*panel.front), where="post", color="#8a8a8a", linewidth=0.8)
   for point in panel.points:
@@ -82,8 +88,7 @@ def lines(axes, plot, panel, spans):
     breakOf(axes, plot, spans)
   if panel.band:
     axes.axhspan(*panel.band, color="#bbbbbb", alpha=0.45, linewidth=0)
-  for curve, best, points in panel.lines:
-    axes.plot(*zip(*points), color=plots_.style(plot.curves, curve)[0], linewidth=1.1 if best else 0.5, alpha=1 if best else 0.35)
+  joined(axes, plot, panel)
   for curve, y, _ in panel.levels:
     axes.axhline(y, color=plots_.style(plot.curves, curve)[0], linewidth=0.9, dashes=(4, 2))
   for point in panel.points:

@@ -102,10 +102,12 @@ class Page:
     speed += f" in {len(speeds)} of them and equal to it in the rest" if 0 < len(speeds) < len(won) else ""
     wrong = ", though not without errors" if any(cell.mismatches() for cell, _ in won) else ""
     if len(groups) == 1:
-      names = [words.cellName(cell, self.sweep.swept) for cell in groups[0].fastest(groups[0].candidates)]
-      first = won[0][0]
+      winners = groups[0].fastest(groups[0].candidates)
+      names, first = [words.cellName(cell, self.sweep.swept) for cell in winners], winners[0]
+      exact = groups[0].fastest([cell for cell in groups[0].candidates if not cell.mismatches()]) if wrong else []
       return (f"Fastest is {names[0]}: {words.significant(first.ms)} ms{speed}{wrong}"
-              + (f"; equal to it {'is' if len(names) == 2 else 'are'} {words.listing(names[1:])}." if names[1:] else "."))
+              + (f"; equal to it {'is' if len(names) == 2 else 'are'} {words.listing(names[1:])}." if names[1:] else ".")
+              + (f" Without an error it is {words.cellName(exact[0], self.sweep.swept)}: {words.significant(exact[0].ms)} ms." if exact else ""))
     return f"{name} is fastest, or equal to the fastest, in {len(won)} of {words.count(len(groups), 'group')}{speed}{wrong}."
 
   def fastestTable(self, groups):

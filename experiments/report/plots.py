@@ -134,9 +134,10 @@ class Plots:
 
   def curve(self, cell, without=()):
     """The cell's curve: its values of the curve axes that vary."""
-    axes = [axis for axis in self.curveAxes if axis not in without and (axis == "x" or self.sweep.varies(axis) or axis in cell.values)]
-    axes = [axis for axis in axes if axis not in kPlaces or self.sweep.varies(axis)]
-    return words.cellName(cell, axes) if axes else "all cells"
+    axes = [axis for axis in self.curveAxes if axis not in without and (axis not in kPlaces or self.sweep.varies(axis))]
+    if not axes:
+      return "all cells"
+    return words.cellName(cell, axes) if any(axis in cell.values for axis in axes) else f"without {words.listing(axes)}"
 
   def curveOrder(self, cells, without=()):
     return list(dict.fromkeys(self.curve(cell, without) for cell in cells))
@@ -219,14 +220,34 @@ class Plots:
         _, low, high = cell.spread
         panel.points.append(Point(cell.ms, error if error > 0 else zero, low, high, self.curve(cell),
                                   self.says(cell, f"; {what}: {words.significant(error)}")))
+      panel.lines = self.paths(cells, panel.points)
       panel.front = front(panel.points)
       panels.append(panel)
-    caption = (f"{words.kErrors.get(self.errorName, self.errorName).capitalize()} {origin}, against the median time of a frame; bars span the "
-               "quartiles of the time. The stepped line is the Pareto front: no cell is both faster and nearer to right than those on it. ")
+    caption = (f"{what.capitalize()} {origin}, against the median time of a frame; bars span the quartiles of the time. {self.pathWords()}"
+               "The stepped grey line is the Pareto front: no cell is both faster and nearer to right than those on it. ")
     caption += "Errors of 0 stand below the break. " if zero else ""
     caption += self.bandWords(panels)
     self.list.append(Plot(name, "precision", f"Error against time, {origin}" if suffix else "Error against time", caption.strip(),
                           "time of a frame, ms", what, panels, self.curveOrder(measured), xLog=True, zero=zero))
+
+  def rest(self):
+    """Swept axes whose values are points on a curve."""
+    return [axis for axis in self.sweep.swept if axis not in self.curveAxes]
+
+  def paths(self, cells, points):
+    """Each curve's points joined in the order of the one axis that varies along it, if it is one of numbers."""
+    if len(self.rest()) != 1 or None in [number(self.rest()[0], value) for value in self.sweep.order(self.rest()[0])]:
+      return []
+    order = self.sweep.order(self.rest()[0])
+    paths = {}
+    for cell, point in zip(cells, points):
+      if self.rest()[0] in cell.values:
+        key = (point.curve, *(cell.values.get(place) for place in kPlaces))
+        paths.setdefault(key, []).append((order.index(cell.values[self.rest()[0]]), (point.x, point.y)))
+    return [(curve, False, [place for _, place in sorted(path)]) for (curve, *_), path in paths.items()]
+
+  def pathWords(self):
+    return f"A curve's points are joined in the order of {self.rest()[0]}. " if any(self.paths(self.shown, [Point(0, 0, 0, 0, self.curve(cell), "") for cell in self.shown])) else ""
 
   def strip(self, name, measured):
     """Times alone, a line a curve: what is left of error against time where nothing has an error."""
@@ -273,7 +294,7 @@ class Plots:
     words_ = None in numbers
     place = dict(zip(order, order if words_ else numbers))
     taken = (axis, "scene") if axis == "x" else (axis,)
-    rest = [a for a in self.sweep.swept if a not in self.curveAxes and a != axis]
+    rest = [other for other in self.rest() if other != axis]
     if kind == "error" and self.agree(cells, source, taken):
       taken += kDevices
     panels = []

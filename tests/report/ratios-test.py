@@ -128,6 +128,8 @@ class Sample(unittest.TestCase):
     for name in ("work-precision", "against-tile", "ratio-against-tile", "error-against-tile", "against-scene", "against-x", "heat-tile-binning", "stages"):
       self.assertIn(name, names)
     self.assertEqual(made.figure(), "ratio-against-tile")
+    for plot in made.list:
+      self.assertRegex(plot.caption, r"^[A-Z][^{}]*\.$")
     self.assertTrue(any("llvmpipe" in line and "--all-devices" in line for line in made.skipped), made.skipped)
     self.assertTrue(any(line.startswith("coverage_mismatch from the exact image") for line in made.skipped), made.skipped)
     timed = next(plot for plot in made.list if plot.name == "against-tile")
