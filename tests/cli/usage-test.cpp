@@ -107,8 +107,9 @@ TEST_CASE("Devices that are not there are refused") {
 
 TEST_CASE("Help and version answer on stdout") {
   Desk desk;
-  for (const char* const arguments : {"--help", "--version", "render --help", "parity --help", "compare --help",
-                                      "plan --help", "devices --help", "variants --help", "kernels --help"}) {
+  for (const char* const arguments :
+       {"--help", "--version", "render --help", "parity --help", "compare --help", "plan --help", "devices --help",
+        "variants --help", "kernels --help", "sweep --help"}) {
     const auto outcome = desk.tessera(arguments);
     INFO("tessera " << arguments);
     CHECK(outcome.code == 0);
