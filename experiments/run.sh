@@ -9,10 +9,11 @@ python=${TESSERA_PYTHON:-$PWD/../.tools/report/bin/python}
 say() { printf '%s\n' "experiments: $*" >&2; }
 die() { say "$*"; exit 2; }
 
-quick=() out=../out/experiments keep=false names=()
+root=${TESSERA_OUT:-../out}
+quick=() out=$root/experiments keep=false names=()
 for argument; do
   case $argument in
-    --quick) quick=(--quick) out=../out/experiments-quick ;;
+    --quick) quick=(--quick) out=$root/experiments-quick ;;
     --keep) keep=true ;;
     -*) die "no option $argument; --quick and --keep are there" ;;
     *) [[ -f $argument/sweep.toml ]] || die "no experiment '$argument'; there are: $(echo */sweep.toml | sed 's:/sweep.toml::g')"

@@ -1,0 +1,52 @@
+"""[[expect]] finds what does not hold, and nothing else."""
+import json
+from pathlib import Path
+import sys
+import tempfile
+import unittest
+
+sys.path.insert(0, str(Path(__file__).parents[2] / "experiments" / "report"))
+import expect
+
+
+def row(cell, tile, status="ok", mismatch=0, twin=False, scene="ball"):
+  row = {"status": status, "message": "why", "scene": {"size": [8, 8]},
+         "sweep": {"cell": cell, "twin": twin, "scene": scene, "device": "cpu", "asked": {"tile": tile}}}
+  return row | ({"error": {"id_mismatch": mismatch}} if status == "ok" else {})
+
+
+class Expect(unittest.TestCase):
+  def check(self, toml, *rows):
+    with tempfile.TemporaryDirectory() as folder:
+      (Path(folder) / "sweep.toml").write_text(toml)
+      (Path(folder) / "rows.jsonl").write_text("".join(json.dumps(row) + "\n" for row in rows))
+      return expect.check(Path(folder))
+
+  def testWhatHolds(self):
+    toml = '[[expect]]\nwhere = {tile = [8, 16]}\nstatus = "ok"\nerror.id_mismatch = 0\n'
+    self.assertEqual(self.check(toml, row(0, "8"), row(1, "16"), row(2, "32", mismatch=5)), ([], 2))
+
+  def testNumbersAndComparisons(self):
+    for wanted, value, holds in (("0", 0, True), ("0", 1, False), ('"> 0"', 1, True), ('"> 0"', 0, False),
+                                 ('"<= 3"', 3, True), ('"< 3"', 3, False), ('">= 1e1"', 10, True)):
+      lines, checked = self.check(f"[[expect]]\nerror.id_mismatch = {wanted}\n", row(0, "8", mismatch=value))
+      self.assertEqual((not lines, checked), (holds, 1), f"{value} against {wanted}")
+
+  def testStatus(self):
+    toml = '[[expect]]\nstatus = "ok"\n'
+    lines, _ = self.check(toml, row(0, "8"), row(1, "16", status="timeout"))
+    self.assertEqual(len(lines), 1)
+    self.assertIn("tile=16: status is timeout, not ok: why", lines[0])
+    self.assertEqual(self.check('[[expect]]\nstatus = ["ok", "timeout"]\nerror.id_mismatch = 0\n', row(0, "8", status="timeout"))[0], [])
+
+  def testWhatIsNotThere(self):
+    self.assertIn("counters.pieces is not there", self.check("[[expect]]\ncounters.pieces = 1\n", row(0, "8"))[0][0])
+    self.assertIn("chooses no cell", self.check('[[expect]]\nwhere = {tile = 64}\nstatus = "ok"\n', row(0, "8"))[0][0])
+
+  def testScenesThatDidNotRunAndTwins(self):
+    self.assertEqual(self.check('[[expect]]\nscene = "field"\nerror.id_mismatch = 0\n', row(0, "8", mismatch=1)), ([], 0))
+    self.assertEqual(self.check("[[expect]]\nerror.id_mismatch = 0\n", row(0, "8"), row(1, "8", mismatch=1, twin=True)), ([], 1))
+
+
+if __name__ == "__main__":
+  unittest.main()
