@@ -101,6 +101,10 @@ def lines(plot, panel, spans):
     layers += breakOf(plot, spans)
   if panel.band:
     layers.append(alt.Chart(data([{"low": panel.band[0], "high": panel.band[1]}])).mark_rect(color="#bbbbbb", opacity=0.45).encode(y=alt.Y("low:Q"), y2="high"))
+  if panel.bands:
+    bands = alt.Chart(data([{"x": bx, "low": low, "high": high} for bx, low, high in panel.bands]))
+    bands = bands.mark_rect(color="#bbbbbb", opacity=0.45) if isWords else bands.mark_rule(color="#bbbbbb", opacity=0.45, strokeWidth=14)
+    layers.append(bands.encode(x=x, y=alt.Y("low:Q"), y2="high"))
   layers += joined(panel, x, y, colour)
   if panel.levels:
     layers.append(alt.Chart(data([{"y": ly, "curve": curve, "says": says} for curve, ly, says in panel.levels])).mark_rule(

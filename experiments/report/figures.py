@@ -88,6 +88,11 @@ def lines(axes, plot, panel, spans):
     breakOf(axes, plot, spans)
   if panel.band:
     axes.axhspan(*panel.band, color="#bbbbbb", alpha=0.45, linewidth=0)
+  for x, low, high in panel.bands:
+    if isWords:
+      axes.add_patch(pyplot.Rectangle((plot.ticks.index(x) - 0.4, low), 0.8, high - low, color="#bbbbbb", alpha=0.45, linewidth=0))
+    else:
+      axes.plot([x, x], [low, high], color="#bbbbbb", alpha=0.45, linewidth=9, solid_capstyle="butt")
   joined(axes, plot, panel)
   for curve, y, _ in panel.levels:
     axes.axhline(y, color=plots_.style(plot.curves, curve)[0], linewidth=0.9, dashes=(4, 2))
@@ -154,7 +159,9 @@ def draw(plot, panels):
   rows = [panels[first:first + across] for first in range(0, len(panels), across)]
   heights = [max(heightOf(plot, panel) for panel in row) for row in rows]
   legend = legendOf(plot)
-  width = across * kColumn + (across - 1) * kGap
+  # Many words with many curves each take the width of a page.
+  crowded = plot.kind == "lines" and isinstance(plot.ticks[0], str) and len(plot.ticks) * len(plot.curves) > 30
+  width = 2 * kColumn + kGap if across == 2 or crowded else kColumn
   longest = max((len(handle.get_label()) for handle in legend), default=1)
   columns = max(1, min(len(legend), int(width / (0.35 + 0.058 * longest)))) if legend else 1
   top = 0.06 + 0.14 * math.ceil(len(legend) / columns)

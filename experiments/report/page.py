@@ -98,7 +98,7 @@ class Page:
         wins.setdefault(words.cellName(cell, self.sweep.swept), []).append((cell, group))
     name, won = max(wins.items(), key=lambda item: len(item[1]))
     speeds = sorted(1 / cell.ratio.median for cell, _ in won if cell.ratio and not cell.ratio.equal)
-    speed = f", {words.span(speeds)} times as fast as the reference" if speeds else ", which is the reference" if won[0][0].reference else ", equal to the reference"
+    speed = f", {words.span(speeds)} times as fast as the reference" if speeds else ", and is the reference" if won[0][0].reference else ", equal to the reference"
     speed += f" in {len(speeds)} of them and equal to it in the rest" if 0 < len(speeds) < len(won) else ""
     wrong = ", though not without errors" if any(cell.mismatches() for cell, _ in won) else ""
     if len(groups) == 1:
@@ -225,7 +225,8 @@ class Page:
     columns += [("truth_error", self.plots.errorName)] if self.sweep.truth else []
     heads = self.identityHeads() + [("status", "short"), ("ms", "number"), ("quartiles", "number"), ("ratio", "number"), ("verdict", "short")]
     heads += [(name + (" from truth" if source == "truth_error" else ""), "number") for source, name in columns]
-    heads += [("reason", "reason"), ("command", "command")]
+    anyReason = any(cell.message for cell in self.sweep.cells)
+    heads += [("reason", "reason")] * anyReason + [("command", "command")]
     rows = []
     for cell in self.sweep.cells:
       row = self.identity(cell)
@@ -233,7 +234,8 @@ class Page:
       row += [quantity(cell.ms if cell.timed else None), text(" to ".join(words.significant(v) for v in cell.spread[1:]) if cell.timed else "")]
       row += [quantity(cell.ratio.median if cell.ratio else None), text(self.verdict(cell))]
       row += [quantity(cell.error(source, name)) for source, name in columns]
-      row += [text(cell.message), (f"<code>{escape(cell.row.get('command', ''))}</code>", None)]
+      row += [text(cell.message)] * anyReason
+      row += [(f"<code>{escape(cell.row.get('command', ''))}</code>", None)]
       rows.append(row)
     return ("rows", "All rows", '<div class="filter"><label for="filter">Show rows with</label><input id="filter" type="search" data-filters="all-rows" '
             'aria-describedby="filter-shown" placeholder="words, such as unsupported tile" autocomplete="off"><span id="filter-shown" aria-live="polite"></span></div>'
@@ -289,7 +291,7 @@ class Page:
       if name == "utc":
         return found[0] if len(found) == 1 else f"{min(found)} to {max(found)}" if found else ""
       return "; ".join({"True": "yes", "False": "no"}.get(entry, entry) for entry in found)
-    heads = [("", "short")] + [(", ".join(part if index < 2 else f"{part} threads" for index, part in enumerate(key) if part), "") for key in kinds]
+    heads = [("", "short")] + [(", ".join(part if index < 2 else words.place("threads", part) for index, part in enumerate(key) if part), "") for key in kinds]
     rows = [[text(name)] + [text(value(cells, name)) for cells in kinds.values()] for name in names]
     clocks = [[text("clock")] + [text("; ".join(dict.fromkeys(cell.row["time_ns"]["clock"] for cell in cells if cell.timed))) for cells in kinds.values()]]
     return "<h3>Environment</h3>" + table("environment", "The machines and builds that gave the rows. Clock: wall is a steady clock of the CPU, timestamp the GPU's own.",

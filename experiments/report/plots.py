@@ -36,6 +36,7 @@ class Panel:
   lines: list = field(default_factory=list)   # (curve, whether it is the fastest over what is not drawn apart, [(x, y)])
   levels: list = field(default_factory=list)  # (curve, y): cells that have no value on the x axis
   band: tuple | None = None                   # the noise floor around the reference, on the axis of time or ratio
+  bands: list = field(default_factory=list)   # (x, low, high): the same where each x has a reference of its own
   front: list = field(default_factory=list)   # the Pareto front's points, by time
   failed: list = field(default_factory=list)  # (x, says): cells without a time
   cells: list = field(default_factory=list)   # heat: (x, y, value or None, text, says); bars: (bar, stage, ms, says)
@@ -157,7 +158,7 @@ class Plots:
     for cell in cells:
       panels.setdefault(tuple(cell.values.get(place, "") for place in places), []).append(cell)
     for key, members in panels.items():
-      named = [f"{part} threads" if place == "threads" else part for place, part in zip(places, key) if part]
+      named = [words.place(place, part) for place, part in zip(places, key) if part]
       yield ", ".join(named), members
 
   def says(self, cell, extra=""):
@@ -185,8 +186,17 @@ class Plots:
       return None
     return groups[0].reference.ms / groups[0].floor, groups[0].reference.ms * groups[0].floor
 
-  def placeWords(self, title):
-    return title or "all cells"
+  def putBands(self, panel, kind, cells, axis, place):
+    """The noise floor around each reference: across the panel where it has one, else at the references' places."""
+    found = []
+    for group in self.references(cells):
+      if group.floor:
+        middle = group.reference.ms if kind == "time" else 1
+        found.append((group.reference.values.get(axis), middle / group.floor, middle * group.floor))
+    if len(self.references(cells)) == 1:
+      panel.band = found[0][1:] if found else None
+    else:
+      panel.bands = [(place[value], low, high) for value, low, high in found if value in place]
 
   # -- error against time
 
@@ -251,22 +261,27 @@ class Plots:
 
   def strip(self, name, measured):
     """Times alone, a line a curve: what is left of error against time where nothing has an error."""
+    axes = [axis for axis in self.curveAxes if axis not in kPlaces or self.sweep.varies(axis)]
+    short = lambda cell: ", ".join(cell.values[axis] for axis in axes if axis in cell.values) or "without these"
     panels = []
     for title, cells in self.split(measured):
       panel = Panel(title, band=self.timeBand(cells))
       for cell in cells:
         _, low, high = cell.spread
-        panel.points.append(Point(cell.ms, self.curve(cell), low, high, self.curve(cell), self.says(cell)))
+        panel.points.append(Point(cell.ms, short(cell), low, high, self.curve(cell), self.says(cell)))
       panels.append(panel)
     anyError = any(cell.error("error", self.errorName) is not None for cell in measured)
     caption = ("Every image is the oracle's, so only times differ; " if anyError else "Times alone; ") + "bars span their quartiles. " + self.bandWords(panels)
+    caption += f" Lines are named by {words.listing(axes)}." if axes else ""
     curves = self.curveOrder(measured)
     self.list.append(Plot(name, "strip", "Times, all with an error of 0" if anyError else "Times", caption.strip(), "time of a frame, ms", "",
-                          panels, curves, xLog=True, rows=curves))
+                          panels, curves, xLog=True, rows=list(dict.fromkeys(map(short, measured)))))
 
   def bandWords(self, panels):
-    if not any(panel.band for panel in panels):
+    if not any(panel.band or panel.bands for panel in panels):
       return ""
+    if any(panel.bands for panel in panels):
+      return "A grey bar is the A/A noise floor around the reference there: what lies in it equals the reference as far as this sweep can tell."
     return "The grey band is the A/A noise floor around the reference: what lies in it equals the reference as far as this sweep can tell."
 
   # -- time, ratio and error against an axis
@@ -321,11 +336,8 @@ class Plots:
             for x, y in points if other == curve else ():
               best[x] = min(y, best.get(x, y))
           panel.lines.append((curve, True, sorted(best.items())))
-      if kind == "time":
-        panel.band = self.timeBand(members)
-      if kind == "ratio":
-        floors = [group.floor for group in self.references(members) if group.floor]
-        panel.band = (1 / max(floors), max(floors)) if floors else None
+      if kind != "error":
+        self.putBands(panel, kind, members, axis, place)
       panels.append(panel)
       if kind != "error":
         panel.failed = self.failures(axis, taken, title, place)
@@ -345,11 +357,8 @@ class Plots:
       caption += f"Level lines are cells that have no {axis}. "
     if any(panel.failed for panel in panels):
       caption += "A cross at the foot is a cell without a time; the table says why. "
-    if kind == "time":
+    if kind != "error":
       caption += self.bandWords(panels)
-    elif kind == "ratio" and any(panel.band for panel in panels):
-      caption += "The grey band is the A/A noise floor: within it, times are equal." + (
-          " It is the widest of the references' floors." if any(len(self.references(m)) > 1 for _, m in self.split(cells, taken)) else "")
     if kind == "error":
       exact = [panel for panel in panels if not any(point.y for point in panel.points) and not any(y for _, y, _ in panel.levels)]
       panels = [panel for panel in panels if panel not in exact]
@@ -417,7 +426,7 @@ class Plots:
       panels.setdefault(key, {}).setdefault((cell.values[across], cell.values[down]), []).append(cell)
     list_ = []
     for key, places_ in panels.items():
-      panel = Panel(", ".join(f"{part} threads" if place == "threads" else part for place, part in zip(places, key) if part))
+      panel = Panel(", ".join(words.place(place, part) for place, part in zip(places, key) if part))
       for (column, line), members in places_.items():
         timed = [cell for cell in members if cell.ratio]
         if timed:
@@ -450,7 +459,7 @@ class Plots:
       if not members:
         continue
       values = group.values
-      panel = Panel(", ".join(f"{values[p]} threads" if p == "threads" else values[p] for p in places if p in values))
+      panel = Panel(", ".join(words.place(name, values[name]) for name in places if name in values))
       for cell in members:
         bar = ", ".join(cell.values.get(axis, "\u2013") for axis in self.sweep.swept) or "the only cell"
         for stage, ns in cell.row["time_ns"]["stages"].items():
@@ -491,7 +500,7 @@ def spansOf(plot, panel):
     return spans
   def heights(members):
     found = [v for other in members for p in other.points for v in (p.y, p.low, p.high) if plot.kind == "lines" or v == p.y]
-    found += [y for other in members for _, y, _ in other.levels] + [v for other in members for v in other.band or () if plot.kind == "lines"]
+    found += [y for other in members for _, y, _ in other.levels] + [v for other in members for v in (*(other.band or ()), *(edge for _, *edges in other.bands for edge in edges)) if plot.kind == "lines"]
     return found
   if plot.kind in ("precision", "strip"):
     spans["x"] = scales.domain([v for p in panel.points for v in (p.x, p.low, p.high)] + list(panel.band or ()), True)

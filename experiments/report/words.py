@@ -39,6 +39,10 @@ def axisName(name, sweep):
   return {"size": "raster, pixels", "threads": "threads", "tile": "tile, pixels"}.get(name, name)
 
 
+def place(name, value):
+  return count(int(value), "thread") if name == "threads" else value
+
+
 def cellName(cell, axes):
   """The cell's values of some axes: "tile=8 binning=exact"."""
   return " ".join(f"{axis}={cell.values[axis]}" for axis in axes if axis in cell.values) or "the only cell"
