@@ -212,6 +212,14 @@ class Page:
       return "reference"
     return cell.ratio.verdict if cell.ratio else ""
 
+  def errorText(self, cell, source, name):
+    """With its range, where it differs from run to run."""
+    shown, value = quantity(cell.error(source, name))
+    samples = [sample for sample in cell.row.get("error_samples", {}).get(name, []) if sample is not None] if source == "error" else []
+    if samples and min(samples) < max(samples):
+      shown += f" ({words.significant(min(samples))} to {words.significant(max(samples))})"
+    return shown, value
+
   def identity(self, cell):
     return [quantity(cell.number), *(text(cell.values.get(place)) for place in self.places), *(text(cell.values.get(axis)) for axis in self.sweep.swept)]
 
@@ -233,7 +241,7 @@ class Page:
       row.append((f'<span class="{"good" if cell.status == "ok" else "bad"}">{escape(cell.status)}</span>{" (software)" if cell.software else ""}', None))
       row += [quantity(cell.ms if cell.timed else None), text(" to ".join(words.significant(v) for v in cell.spread[1:]) if cell.timed else "")]
       row += [quantity(cell.ratio.median if cell.ratio else None), text(self.verdict(cell))]
-      row += [quantity(cell.error(source, name)) for source, name in columns]
+      row += [self.errorText(cell, source, name) for source, name in columns]
       row += [text(cell.message)] * anyReason
       row += [(f"<code>{escape(cell.row.get('command', ''))}</code>", None)]
       rows.append(row)
