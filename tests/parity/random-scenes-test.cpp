@@ -26,7 +26,7 @@ constexpr std::uint64_t kScenes = 500;
 constexpr bool kFewPaths = false;
 #endif
 /// On SwiftShader a few: nearly each frame compiles kernels of its own, a second of a core.
-std::uint64_t scenesFor(const Machine& machine) { return machine.isSwiftShader() ? 20 : kScenes; }
+std::uint64_t scenesFor(const Machine& machine) { return machine.isSwiftShader() ? std::max<std::uint64_t>(20, kScenes / 25) : kScenes; }
 /// Variants a scene: a CPU renders a small scene in a fraction of a millisecond, a software Vulkan driver takes tens of
 /// times as long.
 std::size_t variantsOfScene(const Machine& machine) {
