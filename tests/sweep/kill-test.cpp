@@ -58,12 +58,15 @@ TEST_CASE("A sweep killed twenty times ends with the rows of one that never was"
 
   for (int kill = 0; kill < 20; ++kill) {
     Running sweep(desk, "sweep tile.toml --out killed --resume");
-    if (kill % 4 == 0) {  // while it starts
-      std::this_thread::sleep_for(std::chrono::microseconds(static_cast<int>(random.between(0, 150e3))));
-    } else {  // while it runs, somewhere up to a 20th of all further on
-      const double from = static_cast<double>(sizeOf(desk, "killed/journal.jsonl"));
-      const double to = from + random.between(0, bytes / 20);
-      REQUIRE(sweep.until([&] { return static_cast<double>(sizeOf(desk, "killed/journal.jsonl")) > to; }));
+    const auto grown = [&, from = sizeOf(desk, "killed/journal.jsonl")] {
+      return static_cast<double>(sizeOf(desk, "killed/journal.jsonl")) - static_cast<double>(from);
+    };
+    if (kill % 4 == 0) {  // while it starts, if it is not too fast for that
+      const auto moment =
+          std::chrono::steady_clock::now() + std::chrono::microseconds(static_cast<int>(random.between(0, 150e3)));
+      REQUIRE(sweep.until([&] { return std::chrono::steady_clock::now() > moment || grown() > bytes / 40; }));
+    } else {  // while it runs, up to a 20th of all further on
+      REQUIRE(sweep.until([&, bound = random.between(0, bytes / 20)] { return grown() > bound; }));
     }
     const pid_t worker = sweep.worker();
     sweep.signal(SIGKILL);
