@@ -63,9 +63,10 @@ fs::path reportPackage() {
 
 ExitCode runReport(const ReportOptions& options) {
   bringRowsUpToDate(options.folder);
-  // -I: neither the user's own packages nor $PYTHONPATH may get between.
-  std::vector<std::string> words{pythonProgram(), "-I",       reportPackage().string(),
-                                 options.folder,  "--schema", std::to_string(kRowSchemaVersion)};
+  // -I: neither the user's own packages nor $PYTHONPATH may get between; -B: nothing is written beside the sources.
+  const std::string schema = std::to_string(kRowSchemaVersion);
+  std::vector<std::string> words{
+      pythonProgram(), "-I", "-B", reportPackage().string(), options.folder, "--schema", schema};
   if (!options.exported.empty()) words.insert(words.end(), {"--export", options.exported});
   if (options.allDevices) words.push_back("--all-devices");
   std::vector<char*> arguments;
