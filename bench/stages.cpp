@@ -27,15 +27,17 @@ struct StageBench {
   std::size_t bytes = 0;  ///< that an element is read and written as, where neither depends on the scene
 };
 
-/// A time by hand does not tell the library when a stage of microseconds in a frame of milliseconds has run for long enough.
+/// A time by hand does not tell the library when a stage of microseconds in a frame of milliseconds has run for long
+/// enough.
 constexpr int kFrames = 20;
 
 const std::vector<StageBench>& stageBenches() {
   using enum Element;
   static const std::vector<StageBench> list{
-      {"clear", "commit=two-pass", {"elephant"}, {512, 2048}, kPixel, 8},         // depth and id out
-      {"transform", "", {"elephant", "sphere"}, {1024}, kVertex, 12 + 16 + 16},   // position in, clip space and corner out
-      {"project", "", {"clip-space-sphere"}, {1024}, kVertex, 16 + 16},           // clip space in, corner out
+      {"clear", "commit=two-pass", {"elephant"}, {512, 2048}, kPixel, 8},        // depth and id out
+      {"transform", "", {"elephant", "sphere"}, {1024}, kVertex, 12 + 16 + 16},  // position in, clip space and corner
+                                                                                 // out
+      {"project", "", {"clip-space-sphere"}, {1024}, kVertex, 16 + 16},          // clip space in, corner out
       {"setup", "", {"elephant", "sphere", "inside-ring"}, {1024}, kTriangle},
       {"payload", "commit=depth24+lum8 shade=flat", {"elephant", "sphere"}, {1024}, kTriangle},
       {"bin-count", "binning=exact", {"elephant", "sphere", "layers-near-to-far"}, {1024}, kTriangle},
@@ -44,7 +46,8 @@ const std::vector<StageBench>& stageBenches() {
       {"bin-insert", "binning=exact", {"elephant", "sphere", "layers-near-to-far"}, {1024}, kTriangle},
       {"raster-tiles", "", {"elephant", "sphere", "layers-far-to-near", "layers-near-to-far"}, {512, 2048}, kPixel},
       {"raster-items", "binning=none commit=two-pass", {"elephant", "sphere"}, {512, 2048}, kPixel},
-      {"resolve", "commit=depth32+id32", {"elephant"}, {512, 2048}, kPixel, 8 + 8},  // a packed word in, depth and id out
+      {"resolve", "commit=depth32+id32", {"elephant"}, {512, 2048}, kPixel, 8 + 8},  // a packed word in, depth and id
+                                                                                     // out
       {"shade", "shade=smooth", {"elephant"}, {512, 2048}, kPixel},
       {"attribute", "", {"elephant"}, {512, 2048}, kPixel},
   };
@@ -84,11 +87,13 @@ void count(benchmark::State& state, const StageBench& bench, const Scene& scene,
     elements = ((scene.width + tile - 1) / tile) * ((scene.height + tile - 1) / tile), name = "tiles/s";
   }
   state.counters[name] = bench::rate(elements);
-  if (std::string_view(bench.stage).starts_with("raster-")) state.counters["triangles/s"] = bench::rate(scene.triangles.size());
+  if (std::string_view(bench.stage).starts_with("raster-"))
+    state.counters["triangles/s"] = bench::rate(scene.triangles.size());
   if (bench.bytes > 0) state.SetBytesProcessed(static_cast<std::int64_t>(elements * bench.bytes) * kFrames);
 }
 
-void stage(benchmark::State& state, bench::Machine& machine, const StageBench& bench, const std::string& name, std::uint32_t size) {
+void stage(benchmark::State& state, bench::Machine& machine, const StageBench& bench, const std::string& name,
+           std::uint32_t size) {
   const Scene scene = sceneOf(bench, name, size);
   const Variant variant = variantOf(bench);
   const FrameOptions inPlace{.readBack = false};
@@ -118,8 +123,9 @@ int main(int argc, char** argv) {
     for (const StageBench& bench : stageBenches())
       for (const std::string scene : bench.scenes)
         for (const std::uint32_t size : bench.sizes)
-          benchmark::RegisterBenchmark(nameOf(bench, scene, size).c_str(),
-                                       [&, scene, size](benchmark::State& state) { stage(state, machine, bench, scene, size); })
+          benchmark::RegisterBenchmark(
+              nameOf(bench, scene, size).c_str(),
+              [&, scene, size](benchmark::State& state) { stage(state, machine, bench, scene, size); })
               ->UseManualTime()
               ->Iterations(kFrames)
               ->Unit(benchmark::kMillisecond);
