@@ -1,4 +1,7 @@
-"""Makes a sweep's page and figures: python experiments/report DIR --schema N [--export FILE] [--all-devices]. `tessera report` runs it."""
+"""Makes a sweep's page and figures: python experiments/report DIR --schema N [--export FILE] [--all-devices].
+
+`tessera report` runs it."""
+
 import argparse
 import os
 from pathlib import Path
@@ -16,8 +19,9 @@ def writeBeside(path, content):
 
 
 def writeFigures(folder, plots, main):
-  """The names of the figures, of which `main` is copied to figure.*. Those of an earlier report go: they may not be of these rows."""
+  """The names of the figures, of which `main` is copied to figure.*. Those of an earlier report go."""
   import figures
+
   shutil.rmtree(folder, ignore_errors=True)
   folder.mkdir()
   names = []
@@ -55,6 +59,7 @@ def main():
   import export
   import page
   import plots as plots_
+
   plots = plots_.Plots(sweep, arguments.all_devices)
   figure = plots.figure()
   report = arguments.folder / "report"
@@ -77,7 +82,10 @@ def run():
   try:
     main()
   except ModuleNotFoundError as error:
-    return complain(f"{sys.executable} has no {error.name}: './dev build' installs a Python that has what tools/report.txt lists", 1)
+    return complain(
+      f"{sys.executable} has no {error.name}: './dev build' installs a Python that has what tools/report.txt lists",
+      1,
+    )
   except Refused as error:
     return complain(error, 2)
   except OSError as error:

@@ -1,4 +1,5 @@
 """The rows as one table of DuckDB, in a Parquet or DuckDB file."""
+
 import json
 import os
 from pathlib import Path
@@ -16,13 +17,21 @@ def write(sweep, path):
     with lines.open("w", encoding="utf-8") as file:
       for cell in sweep.cells:
         ratio = cell.ratio
-        added = {"machine": cell.machine, "ms": cell.ms if cell.timed else None, "ratio": ratio.median if ratio else None,
-                 "ratio_low": ratio.low if ratio else None, "ratio_high": ratio.high if ratio else None,
-                 "floor": ratio.floor if ratio else None, "verdict": ratio.verdict if ratio else None}
+        added = {
+          "machine": cell.machine,
+          "ms": cell.ms if cell.timed else None,
+          "ratio": ratio.median if ratio else None,
+          "ratio_low": ratio.low if ratio else None,
+          "ratio_high": ratio.high if ratio else None,
+          "floor": ratio.floor if ratio else None,
+          "verdict": ratio.verdict if ratio else None,
+        }
         file.write(json.dumps({**added, **cell.row}) + "\n")
     # Every row counts for the columns' types; keys that few rows have are fields of a struct all the same.
-    read = (f"SELECT * FROM read_json('{lines}', format='newline_delimited', sample_size=-1, map_inference_threshold=-1, "
-            "maximum_object_size=67108864)")
+    read = (
+      f"SELECT * FROM read_json('{lines}', format='newline_delimited', sample_size=-1,"
+      " map_inference_threshold=-1, maximum_object_size=67108864)"
+    )
     with duckdb.connect(str(new) if path.suffix == ".duckdb" else ":memory:") as database:
       database.execute(f"CREATE TABLE rows AS {read}")
       if path.suffix == ".parquet":

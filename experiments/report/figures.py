@@ -1,4 +1,5 @@
 """Plots as files for papers: SVG, PDF and PNG, sized for one column or two, the same bytes for the same rows."""
+
 import io
 import math
 import os
@@ -6,6 +7,7 @@ import os
 os.environ["SOURCE_DATE_EPOCH"] = "0"  # or the files would hold the time at which they were made
 
 import matplotlib
+
 matplotlib.use("Agg")
 from matplotlib import colors, pyplot
 from matplotlib.lines import Line2D
@@ -17,12 +19,38 @@ import scales
 kColumn, kGap = 3.35, 0.2  # inches: a column of a two-column page, and the space between two
 kPanelHeight = 2.1
 kMostPanels = 6  # of a file; the others go on to the next page
-kMarkers = {"circle": "o", "square": "s", "triangle-up": "^", "diamond": "D", "triangle-down": "v", "cross": "P", "triangle-right": ">"}
+kMarkers = {
+  "circle": "o",
+  "square": "s",
+  "triangle-up": "^",
+  "diamond": "D",
+  "triangle-down": "v",
+  "cross": "P",
+  "triangle-right": ">",
+}
 kStyle = {
-    "font.family": "DejaVu Sans", "font.size": 7, "axes.titlesize": 7, "axes.labelsize": 7, "xtick.labelsize": 6.5, "ytick.labelsize": 6.5,
-    "legend.fontsize": 6.5, "axes.linewidth": 0.5, "axes.edgecolor": "#888888", "xtick.major.width": 0.5, "ytick.major.width": 0.5,
-    "axes.grid": True, "grid.color": "#e6e6e6", "grid.linewidth": 0.5, "axes.axisbelow": True, "lines.linewidth": 1.1, "lines.markersize": 3.6,
-    "legend.frameon": False, "svg.fonttype": "path", "svg.hashsalt": "tessera", "pdf.fonttype": 42, "savefig.dpi": 200,
+  "font.family": "DejaVu Sans",
+  "font.size": 7,
+  "axes.titlesize": 7,
+  "axes.labelsize": 7,
+  "xtick.labelsize": 6.5,
+  "ytick.labelsize": 6.5,
+  "legend.fontsize": 6.5,
+  "axes.linewidth": 0.5,
+  "axes.edgecolor": "#888888",
+  "xtick.major.width": 0.5,
+  "ytick.major.width": 0.5,
+  "axes.grid": True,
+  "grid.color": "#e6e6e6",
+  "grid.linewidth": 0.5,
+  "axes.axisbelow": True,
+  "lines.linewidth": 1.1,
+  "lines.markersize": 3.6,
+  "legend.frameon": False,
+  "svg.fonttype": "path",
+  "svg.hashsalt": "tessera",
+  "pdf.fonttype": 42,
+  "savefig.dpi": 200,
 }
 
 
@@ -45,7 +73,12 @@ def breakOf(axes, plot, spans):
 
 def joined(axes, plot, panel):
   for curve, best, points in panel.lines:
-    axes.plot(*zip(*points), color=plots_.style(plot.curves, curve)[0], linewidth=1.1 if best else 0.5, alpha=1 if best else 0.4)
+    axes.plot(
+      *zip(*points),
+      color=plots_.style(plot.curves, curve)[0],
+      linewidth=1.1 if best else 0.5,
+      alpha=1 if best else 0.4,
+    )
 
 
 def precision(axes, plot, panel, spans):
@@ -90,7 +123,9 @@ def lines(axes, plot, panel, spans):
     axes.axhspan(*panel.band, color="#bbbbbb", alpha=0.45, linewidth=0)
   for x, low, high in panel.bands:
     if isWords:
-      axes.add_patch(pyplot.Rectangle((plot.ticks.index(x) - 0.4, low), 0.8, high - low, color="#bbbbbb", alpha=0.45, linewidth=0))
+      axes.add_patch(
+        pyplot.Rectangle((plot.ticks.index(x) - 0.4, low), 0.8, high - low, color="#bbbbbb", alpha=0.45, linewidth=0)
+      )
     else:
       axes.plot([x, x], [low, high], color="#bbbbbb", alpha=0.45, linewidth=9, solid_capstyle="butt")
   joined(axes, plot, panel)
@@ -114,8 +149,24 @@ def heat(axes, plot, panel, spans):
   axes.grid(False)
   for x, y, value, text, _ in panel.cells:
     column, row = plot.ticks.index(x), plot.rows.index(y)
-    axes.add_patch(pyplot.Rectangle((column - 0.5, row - 0.5), 1, 1, facecolor="#eeeeee" if value is None else scheme(norm(value)), edgecolor="white"))
-    axes.text(column, row, text, ha="center", va="center", fontsize=6, color="white" if value is not None and norm(value) > 0.5 else "#222222")
+    axes.add_patch(
+      pyplot.Rectangle(
+        (column - 0.5, row - 0.5),
+        1,
+        1,
+        facecolor="#eeeeee" if value is None else scheme(norm(value)),
+        edgecolor="white",
+      )
+    )
+    axes.text(
+      column,
+      row,
+      text,
+      ha="center",
+      va="center",
+      fontsize=6,
+      color="white" if value is not None and norm(value) > 0.5 else "#222222",
+    )
 
 
 def bars(axes, plot, panel, spans):
@@ -125,7 +176,15 @@ def bars(axes, plot, panel, spans):
   for index, stage in enumerate(plot.rows):
     for row, bar in enumerate(order):
       ms = cells.get((bar, stage), 0)
-      axes.barh(row, ms, left=left[bar], height=0.8, color=plots_.kStageColours[index % len(plots_.kStageColours)], edgecolor="white", linewidth=0.3)
+      axes.barh(
+        row,
+        ms,
+        left=left[bar],
+        height=0.8,
+        color=plots_.kStageColours[index % len(plots_.kStageColours)],
+        edgecolor="white",
+        linewidth=0.3,
+      )
       left[bar] += ms
   words(axes.yaxis, order)
   axes.set_ylim(len(order) - 0.5, -0.5)
@@ -134,14 +193,26 @@ def bars(axes, plot, panel, spans):
 
 def legendOf(plot):
   if plot.kind == "bars":
-    return [Patch(color=plots_.kStageColours[index % len(plots_.kStageColours)], label=stage) for index, stage in enumerate(plot.rows)]
+    return [
+      Patch(color=plots_.kStageColours[index % len(plots_.kStageColours)], label=stage)
+      for index, stage in enumerate(plot.rows)
+    ]
   if plot.kind in ("heat", "strip") or len(plot.curves) < 2:
     return []
   handles = []
   for curve in plot.curves:
     colour, shape = plots_.style(plot.curves, curve)
-    handles.append(Line2D([], [], color=colour, marker=kMarkers[shape], markeredgewidth=0, label=curve,
-                          linestyle="-" if plot.kind == "lines" and not isinstance(plot.ticks[0], str) else ""))
+    handles.append(
+      Line2D(
+        [],
+        [],
+        color=colour,
+        marker=kMarkers[shape],
+        markeredgewidth=0,
+        label=curve,
+        linestyle="-" if plot.kind == "lines" and not isinstance(plot.ticks[0], str) else "",
+      )
+    )
   return handles
 
 
@@ -156,7 +227,7 @@ def heightOf(plot, panel):
 
 def draw(plot, panels):
   across = 1 if len(panels) == 1 else 2
-  rows = [panels[first:first + across] for first in range(0, len(panels), across)]
+  rows = [panels[first : first + across] for first in range(0, len(panels), across)]
   heights = [max(heightOf(plot, panel) for panel in row) for row in rows]
   legend = legendOf(plot)
   # Many words with many curves each take the width of a page.
@@ -165,7 +236,14 @@ def draw(plot, panels):
   longest = max((len(handle.get_label()) for handle in legend), default=1)
   columns = max(1, min(len(legend), int(width / (0.35 + 0.058 * longest)))) if legend else 1
   top = 0.06 + 0.14 * math.ceil(len(legend) / columns)
-  figure, grid = pyplot.subplots(len(rows), across, figsize=(width, sum(heights) + top), squeeze=False, height_ratios=heights, layout="constrained")
+  figure, grid = pyplot.subplots(
+    len(rows),
+    across,
+    figsize=(width, sum(heights) + top),
+    squeeze=False,
+    height_ratios=heights,
+    layout="constrained",
+  )
   figure.get_layout_engine().set(rect=(0, 0, 1, 1 - top / (sum(heights) + top)), w_pad=0.03, h_pad=0.04)
   make = {"precision": precision, "strip": precision, "lines": lines, "heat": heat, "bars": bars}[plot.kind]
   for row, members in enumerate(rows):
@@ -180,19 +258,25 @@ def draw(plot, panels):
       axes.set_xlabel(plot.x)
       axes.set_ylabel(plot.y if column == 0 else "")
   if legend:
-    figure.legend(handles=legend, loc="upper center", ncols=columns, borderaxespad=0.2, columnspacing=1.2, handletextpad=0.5)
+    figure.legend(
+      handles=legend, loc="upper center", ncols=columns, borderaxespad=0.2, columnspacing=1.2, handletextpad=0.5
+    )
   return figure
 
 
 def files(plot):
   """(name, kind, bytes) of a plot's files."""
-  pages = [plot.panels[first:first + kMostPanels] for first in range(0, len(plot.panels), kMostPanels)]
+  pages = [plot.panels[first : first + kMostPanels] for first in range(0, len(plot.panels), kMostPanels)]
   with matplotlib.rc_context(kStyle):
     for page, panels in enumerate(pages, 1):
       figure = draw(plot, panels)
       figure.draw_without_rendering()
       figure.set_layout_engine("none")  # once is enough for three files
-      for kind, metadata in (("svg", {"Date": None, "Creator": None}), ("pdf", {"CreationDate": None, "Producer": None, "Creator": None}), ("png", {"Software": None})):
+      for kind, metadata in (
+        ("svg", {"Date": None, "Creator": None}),
+        ("pdf", {"CreationDate": None, "Producer": None, "Creator": None}),
+        ("png", {"Software": None}),
+      ):
         file = io.BytesIO()
         figure.savefig(file, format=kind, metadata=metadata)
         yield plot.name if page == 1 else f"{plot.name}-page-{page}", kind, file.getvalue()

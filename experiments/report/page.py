@@ -1,4 +1,5 @@
 """The page: one file that needs no network."""
+
 from html import escape
 import json
 from pathlib import Path
@@ -7,42 +8,15 @@ import altair
 import vl_convert
 
 import charts
+from markup import quantity, swatch, table, text
 import pictures
 import plots as plots_
 import ratios
+from tables import Tables
 import words
 
-kShapes = {  # of the legend, in a box from -6 to 6
-    "circle": "M-4,0a4,4 0 1,0 8,0a4,4 0 1,0 -8,0", "square": "M-3.5,-3.5h7v7h-7z", "triangle-up": "M0,-4.5L4.5,3.5H-4.5z",
-    "diamond": "M0,-5L4,0L0,5L-4,0z", "triangle-down": "M0,4.5L4.5,-3.5H-4.5z",
-    "cross": "M-1.5,-4.5h3v3h3v3h-3v3h-3v-3h-3v-3h3z", "triangle-right": "M4.5,0L-3.5,4.5V-4.5z",
-}
-
-
-def swatch(colour, shape="square"):
-  return f'<svg width="14" height="14" viewBox="-7 -7 14 14" aria-hidden="true"><path d="{kShapes[shape]}" fill="{colour}"/></svg>'
-
-
-def table(name, caption, heads, rows, sortable=True):
-  """`heads`: (text, class); `rows`: lists of (HTML, value to sort by or None)."""
-  def head(text, kind):
-    inner = f'<button type="button">{escape(text)}</button>' if sortable else escape(text)
-    return f'<th scope="col" class="{kind}">{inner}</th>'
-  def cell(content, value, kind):
-    sort = f' data-value="{value!r}"' if value is not None else ""
-    return f'<td class="{kind}"{sort}>{content}</td>'
-  body = "\n".join("<tr>" + "".join(cell(*entry, kind) for entry, (_, kind) in zip(row, heads)) + "</tr>" for row in rows)
-  return (f'<div class="scroll" role="region" aria-label="{escape(caption.split(".")[0])}" tabindex="0">'
-          f'<table id="{name}"{" class=sortable" if sortable else ""}><caption><span>{escape(caption)}</span></caption>'
-          f'<thead><tr>{"".join(head(*h) for h in heads)}</tr></thead>\n<tbody>\n{body}\n</tbody></table></div>')
-
-
-def text(value):
-  return (escape(str(value)), None) if value not in (None, "") else ("\u2013", None)
-
-
-def quantity(value, digits=3):
-  return (words.significant(value, digits), float(value)) if value is not None else ("\u2013", None)
+# The page may not ask for anything. Vega compiles expressions, hence 'unsafe-eval'.
+kPolicy = "default-src 'none'; script-src 'unsafe-inline' 'unsafe-eval'; style-src 'unsafe-inline'; img-src data:"
 
 
 class Page:
@@ -50,6 +24,7 @@ class Page:
     """`figures`: the names of those that were written beside the page."""
     self.sweep, self.plots, self.figures = sweep, plots, figures
     self.places = plots.places(sweep.cells)
+    self.tables = Tables(sweep, plots)
     self.specs = []
     self.notes = list(sweep.notes)
 
@@ -78,10 +53,24 @@ class Page:
       floors = [group.floor for group in groups if group.floor]
       if floors:
         low, high = min(floors), max(floors)
-        span = words.percent(high) if words.percent(low) == words.percent(high) else f"{words.percent(low)} to {words.percent(high)}"
-        lines.append(f"The A/A noise floor, the reference against itself, is {span}: what differs by less is called equal.")
+        span = (
+          words.percent(high)
+          if words.percent(low) == words.percent(high)
+          else f"{words.percent(low)} to {words.percent(high)}"
+        )
+        lines.append(
+          f"The A/A noise floor, the reference against itself, is {span}: what differs by less is called equal."
+        )
+    if self.plots.hiddenDevices:
+      lines.append(
+        f"Times of software drivers ({words.listing(sorted(self.plots.hiddenDevices))}) stand in the table"
+        " only, since they say nothing about a GPU."
+      )
     if len(sweep.machines()) > 1:
-      lines.append(f"The rows come from {words.count(len(sweep.machines()), 'machine')}. They stand side by side; ratios are taken inside each machine only, never between two.")
+      lines.append(
+        f"The rows come from {words.count(len(sweep.machines()), 'machine')}. They stand side by side; ratios"
+        " are taken inside each machine only, never between two."
+      )
     html = "".join(f"<p>{escape(line)}</p>" for line in lines)
     if groups and sweep.swept:
       html += self.fastestTable(groups)
@@ -98,23 +87,44 @@ class Page:
         wins.setdefault(words.cellName(cell, self.sweep.swept), []).append((cell, group))
     name, won = max(wins.items(), key=lambda item: len(item[1]))
     speeds = sorted(1 / cell.ratio.median for cell, _ in won if cell.ratio and not cell.ratio.equal)
-    speed = f", {words.span(speeds)} times as fast as the reference" if speeds else ", and is the reference" if won[0][0].reference else ", equal to the reference"
+    speed = (
+      f", {words.span(speeds)} times as fast as the reference"
+      if speeds
+      else ", and is the reference"
+      if won[0][0].reference
+      else ", equal to the reference"
+    )
     speed += f" in {len(speeds)} of them and equal to it in the rest" if 0 < len(speeds) < len(won) else ""
     wrong = ", though not without errors" if any(cell.mismatches() for cell, _ in won) else ""
     if len(groups) == 1:
       winners = groups[0].fastest(groups[0].candidates)
       names, first = [words.cellName(cell, self.sweep.swept) for cell in winners], winners[0]
       exact = groups[0].fastest([cell for cell in groups[0].candidates if not cell.mismatches()]) if wrong else []
-      return (f"Fastest is {names[0]}: {words.significant(first.ms)} ms{speed}{wrong}"
-              + (f"; equal to it {'is' if len(names) == 2 else 'are'} {words.listing(names[1:])}." if names[1:] else ".")
-              + (f" Without an error it is {words.cellName(exact[0], self.sweep.swept)}: {words.significant(exact[0].ms)} ms." if exact else ""))
-    return f"{name} is fastest, or equal to the fastest, in {len(won)} of {words.count(len(groups), 'group')}{speed}{wrong}."
+      return (
+        f"Fastest is {names[0]}: {words.significant(first.ms)} ms{speed}{wrong}"
+        + (f"; equal to it {'is' if len(names) == 2 else 'are'} {words.listing(names[1:])}." if names[1:] else ".")
+        + (
+          f" Without an error it is {words.cellName(exact[0], self.sweep.swept)}: {words.significant(exact[0].ms)} ms."
+          if exact
+          else ""
+        )
+      )
+    return (
+      f"{name} is fastest, or equal to the fastest, in {len(won)} of {words.count(len(groups), 'group')}{speed}{wrong}."
+    )
 
   def fastestTable(self, groups):
     anyError = any(cell.mismatches() for group in groups for cell in group.candidates)
     places = self.plots.places([cell for group in groups for cell in group.cells])
     heads = [(place, "short") for place in places]
-    heads += [("fastest", "name"), ("ms", "number"), ("quartiles", "number"), ("speed against the reference", ""), ("equal to it", "name"), ("A/A floor", "number")]
+    heads += [
+      ("fastest", "name"),
+      ("ms", "number"),
+      ("quartiles", "number"),
+      ("speed against the reference", ""),
+      ("equal to it", "name"),
+      ("A/A floor", "number"),
+    ]
     if anyError:
       heads += [("fastest without an error", "name")]
     rows = []
@@ -125,15 +135,35 @@ class Page:
       if first.mismatches():
         name += ' <span class="bad">(with errors)</span>'
       row = [text(group.values.get(place)) for place in places]
-      row += [(name, None), quantity(first.ms), (f"{words.significant(low)} to {words.significant(high)}", None), text(self.speed(first)),
-              text("; ".join(words.cellName(cell, self.sweep.swept) for cell in others)),
-              (words.percent(group.floor), group.floor) if group.floor else text("")]
+      row += [
+        (name, None),
+        quantity(first.ms),
+        (f"{words.significant(low)} to {words.significant(high)}", None),
+        text(self.speed(first)),
+        text("; ".join(words.cellName(cell, self.sweep.swept) for cell in others)),
+        (words.percent(group.floor), group.floor) if group.floor else text(""),
+      ]
       if anyError:
         exact = group.fastest([cell for cell in group.candidates if not cell.mismatches()])
-        row.append(text("" if not exact else "the same" if exact[0] is first else f"{words.cellName(exact[0], self.sweep.swept)}, {words.significant(exact[0].ms)} ms"))
+        row.append(
+          text(
+            ""
+            if not exact
+            else (
+              "the same"
+              if exact[0] is first
+              else f"{words.cellName(exact[0], self.sweep.swept)}, {words.significant(exact[0].ms)} ms"
+            )
+          )
+        )
       rows.append(row)
-    return table("fastest", "The fastest cell of each group, and those that equal it within the noise. A group is what was measured in turns: "
-                 "one scene, size, device and number of threads on one machine.", heads, rows)
+    return table(
+      "fastest",
+      "The fastest cell of each group, and those that equal it within the noise. A group is what was measured in"
+      " turns: one scene, size, device and number of threads on one machine.",
+      heads,
+      rows,
+    )
 
   def failures(self, cells):
     failed = {}
@@ -142,22 +172,52 @@ class Page:
         failed.setdefault((cell.status, cell.message), []).append(cell)
     if not failed:
       return "<p>Every cell has a time.</p>" if all(cell.timed for cell in cells) else ""
-    rows = [[text(status), text(message), quantity(len(members)), text("; ".join(dict.fromkeys(
-        " ".join([*(member.values.get(place, "") for place in self.places), words.cellName(member, self.sweep.swept)]).strip() for member in members[:6]))
-        + (f"; and {len(members) - 6} more" if len(members) > 6 else ""))] for (status, message), members in failed.items()]
-    return "<h3>What has no time, and why</h3>" + table("failures", "Cells that did not end as ok, by reason.",
-        [("status", "short"), ("reason", "reason"), ("cells", "number"), ("which", "")], rows)
+    rows = [
+      [
+        text(status),
+        text(message),
+        quantity(len(members)),
+        text(
+          "; ".join(
+            dict.fromkeys(
+              " ".join(
+                [
+                  *(member.values.get(place, "") for place in self.places),
+                  words.cellName(member, self.sweep.swept),
+                ]
+              ).strip()
+              for member in members[:6]
+            )
+          )
+          + (f"; and {len(members) - 6} more" if len(members) > 6 else "")
+        ),
+      ]
+      for (status, message), members in failed.items()
+    ]
+    return "<h3>What has no time, and why</h3>" + table(
+      "failures",
+      "Cells that did not end as ok, by reason.",
+      [("status", "short"), ("reason", "reason"), ("cells", "number"), ("which", "")],
+      rows,
+    )
 
   # -- plots
 
   def legend(self, plot):
     if plot.kind == "bars":
-      entries = [(stage, plots_.kStageColours[index % len(plots_.kStageColours)], "square") for index, stage in enumerate(plot.rows)]
+      entries = [
+        (stage, plots_.kStageColours[index % len(plots_.kStageColours)], "square")
+        for index, stage in enumerate(plot.rows)
+      ]
     elif len(plot.curves) > 1 and plot.kind != "strip":
       entries = [(curve, *plots_.style(plot.curves, curve)) for curve in plot.curves]
     else:
       return ""
-    return '<ul class="legend">' + "".join(f"<li>{swatch(colour, shape)}{escape(name)}</li>" for name, colour, shape in entries) + "</ul>"
+    return (
+      '<ul class="legend">'
+      + "".join(f"<li>{swatch(colour, shape)}{escape(name)}</li>" for name, colour, shape in entries)
+      + "</ul>"
+    )
 
   def figure(self, plot):
     wide = " wide" if plot.kind in ("bars", "heat", "strip") else ""
@@ -165,12 +225,21 @@ class Page:
     for panel in plot.panels:
       self.specs.append(charts.spec(plot, panel))
       title = f"<h4>{escape(panel.title)}</h4>" if panel.title else ""
-      panels.append(f'<div class="panel">{title}<div class="scroll" tabindex="0" role="group" aria-label="{escape(plot.title)}{", " + escape(panel.title) if panel.title else ""}">'
-                    f'<div class="chart" data-spec="{len(self.specs) - 1}"></div></div></div>')
+      panels.append(
+        f'<div class="panel">{title}<div class="scroll" tabindex="0" role="group"'
+        f' aria-label="{escape(plot.title)}{", " + escape(panel.title) if panel.title else ""}"><div'
+        f' class="chart" data-spec="{len(self.specs) - 1}"></div></div></div>'
+      )
     files = [name for name in self.figures if name == plot.name or name.startswith(plot.name + "-page-")]
-    links = "; ".join(" ".join(f'<a href="figures/{name}.{kind}">{kind.upper()}</a>' for kind in ("svg", "pdf", "png")) for name in files)
-    return (f'<figure id="{escape(plot.name)}"><h3>{escape(plot.title)}</h3>{self.legend(plot)}<div class="panels{wide}">{"".join(panels)}</div>'
-            f"<figcaption>{escape(plot.caption)}{' As a file: ' + links + '.' if links else ''}</figcaption></figure>")
+    links = "; ".join(
+      " ".join(f'<a href="figures/{name}.{kind}">{kind.upper()}</a>' for kind in ("svg", "pdf", "png"))
+      for name in files
+    )
+    return (
+      f'<figure id="{escape(plot.name)}"><h3>{escape(plot.title)}</h3>{self.legend(plot)}<div'
+      f' class="panels{wide}">{"".join(panels)}</div>'
+      f"<figcaption>{escape(plot.caption)}{' As a file: ' + links + '.' if links else ''}</figcaption></figure>"
+    )
 
   def section(self, name, title, kinds):
     found = [plot for plot in self.plots.list if plot.kind in kinds]
@@ -183,157 +252,147 @@ class Page:
     self.notes += notes
     if not made:
       return None
-    key = "".join(f'<span class="swatch" style="background:{colour}"></span>{name}' for name, colour in (
-        ("covered in one image only", "#d55e00"), ("another triangle", "#0072b2"), ("another depth", "#f0e442"), ("another value, colour or hit count", "#cc79a7"),
-        ("equal, drawn", "#bebebe"), ("equal, empty", "#e6e6e6")))
+    key = "".join(
+      f'<span class="swatch" style="background:{colour}"></span>{name}'
+      for name, colour in (
+        ("covered in one image only", "#d55e00"),
+        ("another triangle", "#0072b2"),
+        ("another depth", "#f0e442"),
+        ("another value, colour or hit count", "#cc79a7"),
+        ("equal, drawn", "#bebebe"),
+        ("equal, empty", "#e6e6e6"),
+      )
+    )
     figures = []
     for picture in made:
       first = picture.cells[0]
-      counts = [f"{words.pixels(value, name)}{origin}"
-                for source, origin in (("error", ""), ("truth_error", f" {self.plots.truthWords()}"))
-                for name, value in first.row.get(source, {}).items()
-                if name.endswith("_mismatch") and value and (source == "error" or value != first.row.get("error", {}).get(name))]
-      names = ", ".join([*(first.values.get(place, "") for place in self.places), words.cellName(first, self.sweep.swept)])
-      others = f" The same in {words.count(len(picture.cells) - 1, 'other cell')}: {', '.join(str(cell.number) for cell in picture.cells[1:])}." if picture.cells[1:] else ""
+      counts = [
+        f"{words.pixels(value, name)}{origin}"
+        for source, origin in (("error", ""), ("truth_error", f" {self.plots.truthWords()}"))
+        for name, value in first.row.get(source, {}).items()
+        if name.endswith("_mismatch") and value and (source == "error" or value != first.row.get("error", {}).get(name))
+      ]
+      names = ", ".join(
+        [*(first.values.get(place, "") for place in self.places), words.cellName(first, self.sweep.swept)]
+      )
+      others = (
+        f" The same in {words.count(len(picture.cells) - 1, 'other cell')}:"
+        f" {', '.join(str(cell.number) for cell in picture.cells[1:])}."
+        if picture.cells[1:]
+        else ""
+      )
       name = escape(first.row["picture"])
       (width, height), (small, _) = picture.size, picture.shown
-      size = f"{width} \u00d7 {height} pixels" + ("" if small == width else f", each pixel here the most different of {picture.factor} \u00d7 {picture.factor}")
-      figures.append(f'<figure><img decoding="async" src="{picture.uri}" width="{picture.shown[0]}" height="{picture.shown[1]}" alt="Where the image of cell {first.number} '
-                     f'differs: {escape("; ".join(counts))}"><figcaption><b>{escape(names)}</b> (cell {first.number}). {escape("; ".join(counts))}. {size}; <a href="../{name}">as it is</a>.{others}</figcaption></figure>')
-    return ("pictures", "Where images differ", f'<p class="note">{key}. A picture that is shown smaller keeps of each block the pixel that differs most, so that a '
-            f'single wrong pixel is still seen. A cell with errors from its own oracle shows these, else those from the truth.</p><div class="pictures">{"".join(figures)}</div>')
-
-  # -- tables
-
-  def verdict(self, cell):
-    if cell.twin:
-      return "A/A"
-    if cell.reference:
-      return "reference"
-    return cell.ratio.verdict if cell.ratio else ""
-
-  def errorText(self, cell, source, name):
-    """With its range, where it differs from run to run."""
-    shown, value = quantity(cell.error(source, name))
-    samples = [sample for sample in cell.row.get("error_samples", {}).get(name, []) if sample is not None] if source == "error" else []
-    if samples and min(samples) < max(samples):
-      shown += f" ({words.significant(min(samples))} to {words.significant(max(samples))})"
-    return shown, value
-
-  def identity(self, cell):
-    return [quantity(cell.number), *(text(cell.values.get(place)) for place in self.places), *(text(cell.values.get(axis)) for axis in self.sweep.swept)]
-
-  def identityHeads(self):
-    return [("cell", "number"), *((place, "short") for place in self.places), *((axis, "short") for axis in self.sweep.swept)]
-
-  def rows(self):
-    fields = [name for name in dict.fromkeys([self.plots.errorName, "coverage_mismatch", "id_mismatch", "depth_mismatch", "attribute_max", "psnr"])
-              if any(cell.error("error", name) for cell in self.sweep.cells) or name == self.plots.errorName]
-    columns = [("error", name) for name in fields if any(cell.error("error", name) is not None for cell in self.sweep.cells)]
-    columns += [("truth_error", self.plots.errorName)] if self.sweep.truth else []
-    heads = self.identityHeads() + [("status", "short"), ("ms", "number"), ("quartiles", "number"), ("ratio", "number"), ("verdict", "short")]
-    heads += [(name + (" from truth" if source == "truth_error" else ""), "number") for source, name in columns]
-    anyReason = any(cell.message for cell in self.sweep.cells)
-    heads += [("reason", "reason")] * anyReason + [("command", "command")]
-    rows = []
-    for cell in self.sweep.cells:
-      row = self.identity(cell)
-      row.append((f'<span class="{"good" if cell.status == "ok" else "bad"}">{escape(cell.status)}</span>{" (software)" if cell.software else ""}', None))
-      row += [quantity(cell.ms if cell.timed else None), text(" to ".join(words.significant(v) for v in cell.spread[1:]) if cell.timed else "")]
-      row += [quantity(cell.ratio.median if cell.ratio else None), text(self.verdict(cell))]
-      row += [self.errorText(cell, source, name) for source, name in columns]
-      row += [text(cell.message)] * anyReason
-      row += [(f"<code>{escape(cell.row.get('command', ''))}</code>", None)]
-      rows.append(row)
-    return ("rows", "All rows", '<div class="filter"><label for="filter">Show rows with</label><input id="filter" type="search" data-filters="all-rows" '
-            'aria-describedby="filter-shown" placeholder="words, such as unsupported tile" autocomplete="off"><span id="filter-shown" aria-live="polite"></span></div>'
-            + table("all-rows", "Every cell of the sweep. Times are medians and quartiles of a frame, in ms; the ratio is to the reference of its group, paired by round. "
-                    "A click on a heading sorts, and one on a command selects it.", heads, rows))
-
-  def counters(self):
-    cells = [cell for cell in self.sweep.cells if cell.row.get("counters") and not cell.twin]
-    names = [name for name in dict.fromkeys(name for cell in cells for name in cell.row["counters"]) if any(cell.row["counters"].get(name) for cell in cells)]
-    if not names:
-      return None
-    heads = self.identityHeads() + [("ms", "number")] + [(name, "number") for name in names] + [("peak of buffers, KiB", "number")]
-    rows = []
-    for cell in cells:
-      peak = cell.row.get("memory", {}).get("peak_buffer_bytes")
-      rows.append(self.identity(cell) + [quantity(cell.ms if cell.timed else None)] + [quantity(cell.row["counters"].get(name)) for name in names]
-                  + [quantity(round(peak / 1024) if peak is not None else None)])
-    return ("counters", "Counters beside times", table("all-counters", "What each cell's frame counted, beside its time. Counters that are 0 everywhere are left out.", heads, rows))
+      size = f"{width} \u00d7 {height} pixels" + (
+        "" if small == width else f", each pixel here the most different of {picture.factor} \u00d7 {picture.factor}"
+      )
+      figures.append(
+        f'<figure><img decoding="async" src="{picture.uri}" width="{picture.shown[0]}"'
+        f' height="{picture.shown[1]}" alt="Where the image of cell {first.number} differs:'
+        f' {escape("; ".join(counts))}"><figcaption><b>{escape(names)}</b> (cell {first.number}).'
+        f' {escape("; ".join(counts))}. {size}; <a href="../{name}">as it is</a>.{others}</figcaption></figure>'
+      )
+    return (
+      "pictures",
+      "Where images differ",
+      (
+        f'<p class="note">{key}. A picture that is shown smaller keeps of each block the pixel that differs'
+        " most, so that a single wrong pixel is still seen. A cell with errors from its own oracle shows"
+        f' these, else those from the truth.</p><div class="pictures">{"".join(figures)}</div>'
+      ),
+    )
 
   # -- how it was measured
 
   def method(self):
     sweep = self.sweep
     times = [cell.row["time_ns"] for cell in sweep.cells if cell.timed]
-    html = ("<p>Each cell's image was held against the oracle before its time counted. Cells of a group took turns, in an order drawn anew each round, so a "
-            "machine that slows down shows as spread, not as a winner. A ratio is the median over the rounds of a cell's time over the reference's in the same "
-            "round and session.</p>"
-            "<p>The A/A noise floor comes from the reference's twin, the same cell measured once more: from their paired ratios, each turned over or not by chance, "
-            f"as many as there are rounds are drawn with replacement, {ratios.kDraws:,} times; 95 % of the medians lie within the floor, which is never less than the A/A ratio "
-            "itself. A ratio inside the floor is called equal. Each session of a sweep that was resumed has a floor of its own, and a cell measured in several "
-            "has the widest of theirs.</p>")
+    html = (
+      "<p>Each cell's image was held against the oracle before its time counted. Cells of a group took turns, in"
+      " an order drawn anew each round, so a machine that slows down shows as spread, not as a winner. A ratio"
+      " is the median over the rounds of a cell's time over the reference's in the same round and"
+      " session.</p><p>The A/A noise floor comes from the reference's twin, the same cell measured once more:"
+      " from their paired ratios, each turned over or not by chance, as many as there are rounds are drawn with"
+      f" replacement, {ratios.kDraws:,} times; 95 % of the medians lie within the floor, which is never less than"
+      " the A/A ratio itself. A ratio inside the floor is called equal. Each session of a sweep that was resumed"
+      " has a floor of its own, and a cell measured in several has the widest of theirs.</p>"
+    )
     floors = [(group, session) for group in sweep.groups for session in group.floors]
     if floors:
-      heads = [(place, "short") for place in self.places] + [("session", "number"), ("rounds", "number"), ("A/A ratio", "number"), ("floor", "number")]
+      heads = [(place, "short") for place in self.places] + [
+        ("session", "number"),
+        ("rounds", "number"),
+        ("A/A ratio", "number"),
+        ("floor", "number"),
+      ]
       rows = []
       for group, session in floors:
         pairs = ratios.paired(group.twin.samples, group.reference.samples)[session]
-        rows.append([text(group.values.get(place)) for place in self.places] + [quantity(session), quantity(len(pairs)), quantity(ratios.spread(pairs)[0]),
-                                                                   (words.percent(group.floors[session]), group.floors[session])])
-      html += table("floors", "The A/A noise floor of each group and session; session 0 is the first, higher ones are of a sweep that was resumed.", heads, rows)
+        rows.append(
+          [text(group.values.get(place)) for place in self.places]
+          + [
+            quantity(session),
+            quantity(len(pairs)),
+            quantity(ratios.spread(pairs)[0]),
+            (words.percent(group.floors[session]), group.floors[session]),
+          ]
+        )
+      html += table(
+        "floors",
+        "The A/A noise floor of each group and session; session 0 is the first, higher ones are of a sweep that"
+        " was resumed.",
+        heads,
+        rows,
+      )
     elif times:
-      html += "<p>There is no twin of the reference with times here, so there is no noise floor, and nothing is called equal.</p>"
-    return "method", "How it was measured", html + self.environment() + self.skipped()
-
-  def environment(self):
-    """What differs between the rows stands a column each machine and device; what is the same, once."""
-    kinds = {}
-    for cell in self.sweep.cells:
-      kinds.setdefault((cell.machine, cell.values["device"], cell.values.get("threads", "")), []).append(cell)
-    names = [name for name in dict.fromkeys(name for cell in self.sweep.cells for name in cell.row["provenance"]) if name not in ("kernels",)]
-    def value(cells, name):
-      found = list(dict.fromkeys(str(cell.row["provenance"][name]) for cell in cells if name in cell.row["provenance"]))
-      if name == "utc":
-        return found[0] if len(found) == 1 else f"{min(found)} to {max(found)}" if found else ""
-      return "; ".join({"True": "yes", "False": "no"}.get(entry, entry) for entry in found)
-    heads = [("", "short")] + [(", ".join(part if index < 2 else words.place("threads", part) for index, part in enumerate(key) if part), "") for key in kinds]
-    rows = [[text(name)] + [text(value(cells, name)) for cells in kinds.values()] for name in names]
-    clocks = [[text("clock")] + [text("; ".join(dict.fromkeys(cell.row["time_ns"]["clock"] for cell in cells if cell.timed))) for cells in kinds.values()]]
-    return "<h3>Environment</h3>" + table("environment", "The machines and builds that gave the rows. Clock: wall is a steady clock of the CPU, timestamp the GPU's own.",
-                                          heads, rows + clocks, sortable=False)
+      html += (
+        "<p>There is no twin of the reference with times here, so there is no noise floor, and nothing is"
+        " called equal.</p>"
+      )
+    return "method", "How it was measured", html + self.tables.environment() + self.skipped()
 
   def skipped(self):
     lines = self.plots.skipped + self.notes
     if not lines:
       return ""
-    return "<h3>What is not shown</h3><ul id=\"skipped\">" + "".join(f"<li>{escape(line)}</li>" for line in lines) + "</ul>"
+    return (
+      '<h3>What is not shown</h3><ul id="skipped">' + "".join(f"<li>{escape(line)}</li>" for line in lines) + "</ul>"
+    )
 
   # -- the whole
 
   def html(self):
     sweep = self.sweep
-    sections = [("summary", "Summary", self.summary()),
-                self.section("error-time", "Error against time", ("precision", "strip")),
-                self.section("axes", "Along each axis", ("lines",)),
-                self.section("heat", "Two axes at once", ("heat",)),
-                self.section("time", "Stages", ("bars",)),
-                self.pictures(), self.rows(), self.counters(), self.method()]
+    sections = [
+      ("summary", "Summary", self.summary()),
+      self.section("error-time", "Error against time", ("precision", "strip")),
+      self.section("axes", "Along each axis", ("lines",)),
+      self.section("heat", "Two axes at once", ("heat",)),
+      self.section("time", "Stages", ("bars",)),
+      self.pictures(),
+      self.tables.rows(),
+      self.tables.counters(),
+      self.method(),
+    ]
     sections = [section for section in sections if section]
     nav = "".join(f'<a href="#{name}">{escape(title)}</a>' for name, title, _ in sections)
-    body = "".join(f'<section aria-labelledby="{name}"><h2 id="{name}">{escape(title)}</h2>{content}</section>\n' for name, title, content in sections)
+    body = "".join(
+      f'<section aria-labelledby="{name}"><h2 id="{name}">{escape(title)}</h2>{content}</section>\n'
+      for name, title, content in sections
+    )
     # A script's text ends at the first "</": in JSON it can be written in another way.
-    data = json.dumps({"config": charts.kConfig, "specs": self.specs}, separators=(",", ":")).replace("</", "<\\/").replace("<!--", "<\\u0021--")
+    data = (
+      json.dumps({"config": charts.kConfig, "specs": self.specs}, separators=(",", ":"))
+      .replace("</", "<\\/")
+      .replace("<!--", "<\\u0021--")
+    )
     bundle = vl_convert.javascript_bundle(vl_version=".".join(altair.SCHEMA_VERSION.lstrip("v").split(".")[:2]))
     read = lambda name: Path(__file__).with_name(name).read_text(encoding="utf-8")
-    # The policy keeps the page from asking for anything: Vega compiles expressions, hence 'unsafe-eval'.
     return f"""<!DOCTYPE html>
 <html lang="en">
 <head>
 <meta charset="utf-8">
-<meta http-equiv="Content-Security-Policy" content="default-src 'none'; script-src 'unsafe-inline' 'unsafe-eval'; style-src 'unsafe-inline'; img-src data:">
+<meta http-equiv="Content-Security-Policy" content="{kPolicy}">
 <meta name="viewport" content="width=device-width, initial-scale=1">
 <title>{escape(sweep.title)}</title>
 <link rel="icon" href="data:,">
@@ -348,7 +407,8 @@ class Page:
 </header>
 <main>
 {body}</main>
-<footer><p>Made by <code>tessera report</code> from {words.count(len(sweep.cells), "row")} of the sweep {sweep.sha256[:12]}. This file is complete in itself.</p></footer>
+<footer><p>Made by <code>tessera report</code> from {words.count(len(sweep.cells), "row")} of the sweep
+{sweep.sha256[:12]}. This file is complete in itself.</p></footer>
 <script>{bundle.replace("</script", "<" + chr(92) + "/script")}</script>
 <script type="application/json" id="charts">{data}</script>
 <script>

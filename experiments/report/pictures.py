@@ -1,4 +1,5 @@
 """Pictures of differences, made small enough for the page without losing a wrong pixel."""
+
 import base64
 from dataclasses import dataclass
 import io
@@ -6,15 +7,17 @@ import io
 import numpy
 from PIL import Image
 
-# Of the pictures on the page, at most; the largest that fits the budget is taken. The page shows none smaller than it is, or a
-# single wrong pixel could be lost on the way to the screen.
+# Of the pictures on the page, at most; the largest that fits the budget is taken. The page shows none smaller than it
+# is, or a single wrong pixel could be lost on the way to the screen.
 kEdges = (256, 192, 128, 64)
 kBudget = 3_000_000  # bytes of all pictures, as they stand in the page
 
 
 def pool(pixels, edge):
-  """The picture with both sides at most `edge`, and the whole factor by which it became smaller. Of each block the most coloured pixel stays: what agrees is
-  grey, and vermilion (coverage) outdoes blue (id), yellow (depth) and purple (the rest) by how far its channels are apart."""
+  """The picture with both sides at most `edge`, and the whole factor by which it became smaller.
+
+  Of each block the most coloured pixel stays: what agrees is grey, and vermilion (coverage) outdoes blue (id), yellow
+  (depth) and purple (the rest) by how far its channels are apart."""
   height, width, _ = pixels.shape
   factor = -(-max(height, width) // edge)
   if factor == 1:
@@ -37,11 +40,11 @@ def encode(pixels):
 
 @dataclass
 class Picture:
-  cells: list    # that have this very picture
+  cells: list  # that have this very picture
   uri: str
-  size: tuple    # width and height, in pixels
-  shown: tuple   # the same, on the page
-  factor: int    # how many pixels' edge became one
+  size: tuple  # width and height, in pixels
+  shown: tuple  # the same, on the page
+  factor: int  # how many pixels' edge became one
 
 
 def embed(sweep):
@@ -66,7 +69,9 @@ def embed(sweep):
     if sum(len(picture.uri) for picture in made) <= kBudget:
       return made, notes
   kept = 0
-  while sum(len(picture.uri) for picture in made[:kept + 1]) <= kBudget:
+  while sum(len(picture.uri) for picture in made[: kept + 1]) <= kBudget:
     kept += 1
-  notes.append(f"{len(made) - kept} of {len(made)} pictures are left out to keep the page small; the folder pictures/ has them.")
+  notes.append(
+    f"{len(made) - kept} of {len(made)} pictures are left out to keep the page small; the folder pictures/ has them."
+  )
   return made[:kept], notes

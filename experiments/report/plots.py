@@ -1,5 +1,7 @@
-"""What is plotted: the plots that a sweep's rows give, as plain points, lines and bands. charts.py draws them on the page and
-figures.py on paper, so that both show the same."""
+"""What is plotted: the plots that a sweep's rows give, as plain points, lines and bands.
+
+charts.py draws them on the page and figures.py on paper, so that both show the same."""
+
 from dataclasses import dataclass, field
 import math
 
@@ -8,12 +10,27 @@ from rows import kPlaces, number
 import scales
 import words
 
-# Okabe and Ito's colours for all kinds of sight, without the yellow, which is too light for lines on white. Shapes tell the same.
+# Okabe and Ito's colours for all kinds of sight, without the yellow, which is too light for lines on white. Shapes tell
+# the same.
 kColours = ["#0072B2", "#D55E00", "#009E73", "#E69F00", "#CC79A7", "#56B4E9", "#000000"]
 kShapes = ["circle", "square", "triangle-up", "diamond", "triangle-down", "cross", "triangle-right"]
 # Neighbours in a bar differ in lightness, too.
-kStageColours = ["#0072B2", "#E69F00", "#009E73", "#CC79A7", "#56B4E9", "#D55E00", "#999999",
-                 "#7FB8D8", "#F2CF7F", "#7FCEB9", "#E5BCD3", "#AADAF4", "#EAAE7F", "#444444"]
+kStageColours = [
+  "#0072B2",
+  "#E69F00",
+  "#009E73",
+  "#CC79A7",
+  "#56B4E9",
+  "#D55E00",
+  "#999999",
+  "#7FB8D8",
+  "#F2CF7F",
+  "#7FCEB9",
+  "#E5BCD3",
+  "#AADAF4",
+  "#EAAE7F",
+  "#444444",
+]
 kMostBars = 40
 kBreak = 3.2  # of an error axis: this far above where 0 is drawn, which is at least a decade below the least error
 kDevices = ("machine", "device", "threads")
@@ -33,32 +50,32 @@ class Point:
 class Panel:
   title: str
   points: list = field(default_factory=list)
-  lines: list = field(default_factory=list)   # (curve, whether it is the fastest over what is not drawn apart, [(x, y)])
+  lines: list = field(default_factory=list)  # (curve, whether it is the fastest over what is not drawn apart, [(x, y)])
   levels: list = field(default_factory=list)  # (curve, y): cells that have no value on the x axis
-  band: tuple | None = None                   # the noise floor around the reference, on the axis of time or ratio
-  bands: list = field(default_factory=list)   # (x, low, high): the same where each x has a reference of its own
-  front: list = field(default_factory=list)   # the Pareto front's points, by time
+  band: tuple | None = None  # the noise floor around the reference, on the axis of time or ratio
+  bands: list = field(default_factory=list)  # (x, low, high): the same where each x has a reference of its own
+  front: list = field(default_factory=list)  # the Pareto front's points, by time
   failed: list = field(default_factory=list)  # (x, says): cells without a time
-  cells: list = field(default_factory=list)   # heat: (x, y, value or None, text, says); bars: (bar, stage, ms, says)
+  cells: list = field(default_factory=list)  # heat: (x, y, value or None, text, says); bars: (bar, stage, ms, says)
   floor: float | None = None
 
 
 @dataclass
 class Plot:
-  name: str     # of its figure
-  kind: str     # precision, strip, lines, heat or bars
+  name: str  # of its figure
+  kind: str  # precision, strip, lines, heat or bars
   title: str
   caption: str
-  x: str        # titles of the axes
+  x: str  # titles of the axes
   y: str
   panels: list
   curves: list = field(default_factory=list)  # in the legend's order
-  ticks: list = field(default_factory=list)   # values of the x axis: numbers or words
+  ticks: list = field(default_factory=list)  # values of the x axis: numbers or words
   labels: list = field(default_factory=list)  # their texts
   xLog: bool = False
   yLog: bool = True
   zero: float | None = None  # where an error of 0 is drawn, below a break of the axis
-  rows: list = field(default_factory=list)    # heat: values of the y axis; bars: stages
+  rows: list = field(default_factory=list)  # heat: values of the y axis; bars: stages
 
 
 def style(curves, curve):
@@ -86,15 +103,22 @@ class Plots:
     self.sources = [("error", "", "from the cell's own oracle")]
     if sweep.truth:
       self.sources.append(("truth_error", "-truth", self.truthWords()))
-      same = all(cell.error("error", self.errorName) == cell.error("truth_error", self.errorName) for cell in sweep.cells)
+      same = all(
+        cell.error("error", self.errorName) == cell.error("truth_error", self.errorName) for cell in sweep.cells
+      )
       if same:
         self.sources.pop()
-        self.skipped.append(f"{self.errorName} {self.truthWords()}: the same as from each cell's own oracle, in every cell.")
+        self.skipped.append(
+          f"{self.errorName} {self.truthWords()}: the same as from each cell's own oracle, in every cell."
+        )
     hidden = [cell for cell in sweep.cells if cell.timed and cell.software and not allDevices]
     self.shown = [cell for cell in sweep.cells if cell.timed and not cell.twin and cell not in hidden]
     if hidden:
-      self.skipped.append(f"{words.count(len(hidden), 'cell')} of software drivers ({words.listing(dict.fromkeys(c.row['provenance'].get('device', '?') for c in hidden))}) "
-                          "are off the plots of time: they say nothing about a GPU. --all-devices shows them.")
+      self.skipped.append(
+        f"{words.count(len(hidden), 'cell')} of software drivers"
+        f" ({words.listing(dict.fromkeys(c.row['provenance'].get('device', '?') for c in hidden))}) are off the"
+        " plots of time: they say nothing about a GPU. --all-devices shows them."
+      )
     self.hiddenDevices = set() if allDevices else {c.values["device"] for c in sweep.cells if c.software}
     self.groupOf = {id(cell): group for group in sweep.groups for cell in group.cells}
     self.make()
@@ -119,10 +143,19 @@ class Plots:
     if asked is None:
       return names[0] if names else None
     if asked not in names:
-      possible = [f"{kind}-{axis}" for axis in self.sweep.plot.get("against", self.sweep.swept) for kind in ("against", "ratio-against", "error-against")]
-      possible += ["work-precision", "stages"] + [f"heat-{across}-{down}" for across, down in self.sweep.plot.get("heat", [])]
+      possible = [
+        f"{kind}-{axis}"
+        for axis in self.sweep.plot.get("against", self.sweep.swept)
+        for kind in ("against", "ratio-against", "error-against")
+      ]
+      possible += ["work-precision", "stages"] + [
+        f"heat-{across}-{down}" for across, down in self.sweep.plot.get("heat", [])
+      ]
       if asked.removesuffix("-truth") not in possible:
-        raise Refused(f"{self.sweep.folder / 'sweep.toml'}: plot.figure: \"{asked}\" is no plot of this sweep; one of {', '.join(names or possible)} would do")
+        raise Refused(
+          f'{self.sweep.folder / "sweep.toml"}: plot.figure: "{asked}" is no plot of this sweep; one of'
+          f" {', '.join(names or possible)} would do"
+        )
       if not any(line.startswith(asked + ":") for line in self.skipped):
         self.skipped.append(f"{asked}: no cell has what it shows.")
       return None
@@ -216,8 +249,10 @@ class Plots:
     errors = [abs(cell.error(source, self.errorName)) for cell in measured]
     positive = [error for error in errors if error > 0]
     if not positive:
-      self.skipped.append(f"{name}: no cell has an error {origin} ({what}: 0 everywhere), so there is no work-precision plot"
-                          + ("; their times stand on a line instead." if suffix == "" else "."))
+      self.skipped.append(
+        f"{name}: no cell has an error {origin} ({what}: 0 everywhere), so there is no work-precision plot"
+        + ("; their times stand on a line instead." if suffix == "" else ".")
+      )
       if suffix == "":
         self.strip("work-precision", measured)
       return
@@ -228,17 +263,40 @@ class Plots:
       for cell in cells:
         error = abs(cell.error(source, self.errorName))
         _, low, high = cell.spread
-        panel.points.append(Point(cell.ms, error if error > 0 else zero, low, high, self.curve(cell),
-                                  self.says(cell, f"; {what}: {words.significant(error)}")))
+        panel.points.append(
+          Point(
+            cell.ms,
+            error if error > 0 else zero,
+            low,
+            high,
+            self.curve(cell),
+            self.says(cell, f"; {what}: {words.significant(error)}"),
+          )
+        )
       panel.lines = self.paths(cells, panel.points)
       panel.front = front(panel.points)
       panels.append(panel)
-    caption = (f"{what.capitalize()} {origin}, against the median time of a frame; bars span the quartiles of the time. {self.pathWords()}"
-               "The stepped grey line is the Pareto front: no cell is both faster and nearer to right than those on it. ")
+    caption = (
+      f"{what.capitalize()} {origin}, against the median time of a frame; bars span the quartiles of the time."
+      f" {self.pathWords()}The stepped grey line is the Pareto front: no cell is both faster and nearer to right"
+      " than those on it. "
+    )
     caption += "Errors of 0 stand below the break. " if zero else ""
     caption += self.bandWords(panels)
-    self.list.append(Plot(name, "precision", f"Error against time, {origin}" if suffix else "Error against time", caption.strip(),
-                          "time of a frame, ms", what, panels, self.curveOrder(measured), xLog=True, zero=zero))
+    self.list.append(
+      Plot(
+        name,
+        "precision",
+        f"Error against time, {origin}" if suffix else "Error against time",
+        caption.strip(),
+        "time of a frame, ms",
+        what,
+        panels,
+        self.curveOrder(measured),
+        xLog=True,
+        zero=zero,
+      )
+    )
 
   def rest(self):
     """Swept axes whose values are points on a curve."""
@@ -257,12 +315,16 @@ class Plots:
     return [(curve, False, [place for _, place in sorted(path)]) for (curve, *_), path in paths.items()]
 
   def pathWords(self):
-    return f"A curve's points are joined in the order of {self.rest()[0]}. " if any(self.paths(self.shown, [Point(0, 0, 0, 0, self.curve(cell), "") for cell in self.shown])) else ""
+    return (
+      f"A curve's points are joined in the order of {self.rest()[0]}. "
+      if any(self.paths(self.shown, [Point(0, 0, 0, 0, self.curve(cell), "") for cell in self.shown]))
+      else ""
+    )
 
   def strip(self, name, measured):
     """Times alone, a line a curve: what is left of error against time where nothing has an error."""
     axes = [axis for axis in self.curveAxes if axis not in kPlaces or self.sweep.varies(axis)]
-    short = lambda cell: ", ".join(cell.values[axis] for axis in axes if axis in cell.values) or "without these"
+    short = lambda cell: ", ".join(cell.values[axis] for axis in axes if axis in cell.values) or self.curve(cell)
     panels = []
     for title, cells in self.split(measured):
       panel = Panel(title, band=self.timeBand(cells))
@@ -271,18 +333,40 @@ class Plots:
         panel.points.append(Point(cell.ms, short(cell), low, high, self.curve(cell), self.says(cell)))
       panels.append(panel)
     anyError = any(cell.error("error", self.errorName) is not None for cell in measured)
-    caption = ("Every image is the oracle's, so only times differ; " if anyError else "Times alone; ") + "bars span their quartiles. " + self.bandWords(panels)
+    caption = (
+      ("Every image is the oracle's, so only times differ; " if anyError else "Times alone; ")
+      + "bars span their quartiles. "
+      + self.bandWords(panels)
+    )
     caption += f" Lines are named by {words.listing(axes)}." if axes else ""
     curves = self.curveOrder(measured)
-    self.list.append(Plot(name, "strip", "Times, all with an error of 0" if anyError else "Times", caption.strip(), "time of a frame, ms", "",
-                          panels, curves, xLog=True, rows=list(dict.fromkeys(map(short, measured)))))
+    self.list.append(
+      Plot(
+        name,
+        "strip",
+        "Times, all with an error of 0" if anyError else "Times",
+        caption.strip(),
+        "time of a frame, ms",
+        "",
+        panels,
+        curves,
+        xLog=True,
+        rows=list(dict.fromkeys(map(short, measured))),
+      )
+    )
 
   def bandWords(self, panels):
     if not any(panel.band or panel.bands for panel in panels):
       return ""
     if any(panel.bands for panel in panels):
-      return "A grey bar is the A/A noise floor around the reference there: what lies in it equals the reference as far as this sweep can tell."
-    return "The grey band is the A/A noise floor around the reference: what lies in it equals the reference as far as this sweep can tell."
+      return (
+        "A grey bar is the A/A noise floor around the reference there: what lies in it equals the reference as"
+        " far as this sweep can tell."
+      )
+    return (
+      "The grey band is the A/A noise floor around the reference: what lies in it equals the reference as far as"
+      " this sweep can tell."
+    )
 
   # -- time, ratio and error against an axis
 
@@ -293,7 +377,11 @@ class Plots:
       cells = [cell for cell in cells if cell.ratio]
     if kind == "error":
       # An error is as true on a software driver.
-      cells = [cell for cell in self.sweep.cells if cell.status == "ok" and not cell.twin and cell.error(source, self.errorName) is not None]
+      cells = [
+        cell
+        for cell in self.sweep.cells
+        if cell.status == "ok" and not cell.twin and cell.error(source, self.errorName) is not None
+      ]
       if all(cell.error(source, self.errorName) == 0 for cell in cells):
         if cells and self.sweep.plot.get("figure") == name:
           self.skipped.append(f"{name}: no cell has an error {origin}.")
@@ -301,8 +389,13 @@ class Plots:
     placed = [cell for cell in cells if axis in cell.values]
     found = list(dict.fromkeys(cell.values[axis] for cell in placed))
     if len(found) < 2:
-      self.skipped.append(f"{name}: {'no cell with a time' if not found else 'no more than one value of ' + axis + ' with a time'}"
-                          f"{', ' + axis + '=' + found[0] if found else ''}." if kind != "error" else f"{name}: fewer than two values of {axis}.")
+      self.skipped.append(
+        f"{name}:"
+        f" {'no cell with a time' if not found else 'no more than one value of ' + axis + ' with a time'}"
+        f"{', ' + axis + '=' + found[0] if found else ''}."
+        if kind != "error"
+        else f"{name}: fewer than two values of {axis}."
+      )
       return
     order = [value for value in self.sweep.order(axis) if value in found]
     numbers = [number(axis, value) for value in order]
@@ -342,11 +435,16 @@ class Plots:
       if kind != "error":
         panel.failed = self.failures(axis, taken, title, place)
     panels = [panel for panel in panels if panel.points]
-    what = {"time": "time of a frame, ms", "ratio": "time over the reference's",
-            "error": words.kErrors.get(self.errorName, self.errorName)}[kind]
-    caption = {"time": "Median time of a frame; bars span the quartiles. ",
-               "ratio": "Time of a frame over the reference's in the same round: medians, and quartiles as bars. ",
-               "error": f"{what.capitalize()} {origin}. "}[kind]
+    what = {
+      "time": "time of a frame, ms",
+      "ratio": "time over the reference's",
+      "error": words.kErrors.get(self.errorName, self.errorName),
+    }[kind]
+    caption = {
+      "time": "Median time of a frame; bars span the quartiles. ",
+      "ratio": "Time of a frame over the reference's in the same round: medians, and quartiles as bars. ",
+      "error": f"{what.capitalize()} {origin}. ",
+    }[kind]
     if rest and kind == "error":
       caption += f"A curve has a line for each value of {words.listing(rest)}. "
     elif rest and not words_:
@@ -360,10 +458,16 @@ class Plots:
     if kind != "error":
       caption += self.bandWords(panels)
     if kind == "error":
-      exact = [panel for panel in panels if not any(point.y for point in panel.points) and not any(y for _, y, _ in panel.levels)]
+      exact = [
+        panel
+        for panel in panels
+        if not any(point.y for point in panel.points) and not any(y for _, y, _ in panel.levels)
+      ]
       panels = [panel for panel in panels if panel not in exact]
       caption += f"Nowhere an error, and so no plot: {words.listing(panel.title for panel in exact)}. " if exact else ""
-    heights = [point.y for panel in panels for point in panel.points] + [y for panel in panels for _, y, _ in panel.levels]
+    heights = [point.y for panel in panels for point in panel.points] + [
+      y for panel in panels for _, y, _ in panel.levels
+    ]
     zero = None
     if kind == "error" and min(heights) == 0:
       zero = 10.0 ** (math.floor(math.log10(min(y for y in heights if y > 0))) - 1)
@@ -374,10 +478,30 @@ class Plots:
           point.y, point.low, point.high = lift(point.y), lift(point.low), lift(point.high)
         panel.lines = [(curve, best, [(x, lift(y)) for x, y in points]) for curve, best, points in panel.lines]
         panel.levels = [(curve, lift(y), says) for curve, y, says in panel.levels]
-    title = {"time": "Time", "ratio": "Ratio to the reference", "error": "Error"}[kind] + f" against {axis if axis != 'x' else words.axisName(axis, self.sweep)}"
-    self.list.append(Plot(name, "lines", title + (f", {origin}" if suffix else ""), caption.strip(), words.axisName(axis, self.sweep), what, panels,
-                          self.curveOrder(cells, taken), list(place.values()), [value.replace(" x ", "\u00d7") for value in order] if words_ or axis != "size" else
-                          [f"{value:g}" for value in place.values()], not words_ and isLogarithmic(numbers), True, zero))
+    title = {"time": "Time", "ratio": "Ratio to the reference", "error": "Error"}[
+      kind
+    ] + f" against {axis if axis != 'x' else words.axisName(axis, self.sweep)}"
+    self.list.append(
+      Plot(
+        name,
+        "lines",
+        title + (f", {origin}" if suffix else ""),
+        caption.strip(),
+        words.axisName(axis, self.sweep),
+        what,
+        panels,
+        self.curveOrder(cells, taken),
+        list(place.values()),
+        (
+          [value.replace(" x ", "\u00d7") for value in order]
+          if words_ or axis != "size"
+          else [f"{value:g}" for value in place.values()]
+        ),
+        not words_ and isLogarithmic(numbers),
+        True,
+        zero,
+      )
+    )
 
   def agree(self, cells, source, taken):
     """Whether every device and machine has the same error for the same cell."""
@@ -393,13 +517,23 @@ class Plots:
     if kind == "ratio":
       return cell.ratio.median, cell.ratio.low, cell.ratio.high, self.says(cell)
     error = abs(cell.error(source, self.errorName))
-    samples = [abs(value) for value in cell.row.get("error_samples", {}).get(self.errorName, []) if value is not None] if source == "error" else []
+    samples = (
+      [abs(value) for value in cell.row.get("error_samples", {}).get(self.errorName, []) if value is not None]
+      if source == "error"
+      else []
+    )
     says = self.says(cell, f"; {words.kErrors.get(self.errorName, self.errorName)}: {words.significant(error)}")
     return error, min(samples, default=error), max(samples, default=error), says
 
   def failures(self, axis, taken, title, place):
-    failed = [cell for cell in self.sweep.cells if not cell.timed and not cell.twin and cell.values.get(axis) in place
-              and not (cell.values["device"] in self.hiddenDevices)]
+    failed = [
+      cell
+      for cell in self.sweep.cells
+      if not cell.timed
+      and not cell.twin
+      and cell.values.get(axis) in place
+      and not (cell.values["device"] in self.hiddenDevices)
+    ]
     found = []
     for other, members in self.split(failed, taken):
       if other == title:
@@ -414,10 +548,18 @@ class Plots:
     columns = [value for value in self.sweep.order(across) if any(cell.values[across] == value for cell in cells)]
     lines = [value for value in self.sweep.order(down) if any(cell.values[down] == value for cell in cells)]
     if len(columns) < 2 or len(lines) < 2:
-      self.skipped.append(f"{name}: fewer than two values of {across if len(columns) < 2 else down} with a ratio to the reference.")
+      self.skipped.append(
+        f"{name}: fewer than two values of {across if len(columns) < 2 else down} with a ratio to the reference."
+      )
       return
-    every = [cell for cell in self.sweep.cells if not cell.twin and across in cell.values and down in cell.values
-             and cell.values["device"] not in self.hiddenDevices]
+    every = [
+      cell
+      for cell in self.sweep.cells
+      if not cell.twin
+      and across in cell.values
+      and down in cell.values
+      and cell.values["device"] not in self.hiddenDevices
+    ]
     columns, lines = ([v for v in self.sweep.order(a) if any(c.values[a] == v for c in every)] for a in (across, down))
     places = [place for place in self.places(every) if place not in (across, down)]
     panels = {}
@@ -433,14 +575,33 @@ class Plots:
           best = min(timed, key=lambda cell: cell.ratio.median)
           panel.cells.append((column, line, best.ratio.median, words.significant(best.ratio.median), self.says(best)))
         else:
-          panel.cells.append((column, line, None, members[0].status, f"{self.says(members[0])}: {members[0].status}, {members[0].message}"))
+          panel.cells.append(
+            (
+              column,
+              line,
+              None,
+              members[0].status,
+              f"{self.says(members[0])}: {members[0].status}, {members[0].message}",
+            )
+          )
       if any(value is not None for _, _, value, _, _ in panel.cells):
         list_.append(panel)
     rest = [axis for axis in self.sweep.swept if axis not in (across, down)]
     caption = "Time of a frame over the reference's in the same round, medians: below 1 is faster. "
     caption += f"Each field has the fastest over {words.listing(rest)}. " if rest else ""
-    self.list.append(Plot(name, "heat", f"{across} and {down}", caption.strip(), words.axisName(across, self.sweep), words.axisName(down, self.sweep),
-                          list_, ticks=columns, rows=lines))
+    self.list.append(
+      Plot(
+        name,
+        "heat",
+        f"{across} and {down}",
+        caption.strip(),
+        words.axisName(across, self.sweep),
+        words.axisName(down, self.sweep),
+        list_,
+        ticks=columns,
+        rows=lines,
+      )
+    )
 
   # -- stages
 
@@ -455,7 +616,10 @@ class Plots:
     for group in self.sweep.groups:
       members = [cell for cell in group.cells if cell in cells]
       if len(members) > kMostBars:
-        members, cut = sorted(sorted(members, key=lambda cell: cell.ms)[:kMostBars], key=lambda cell: cell.number), True
+        members, cut = (
+          sorted(sorted(members, key=lambda cell: cell.ms)[:kMostBars], key=lambda cell: cell.number),
+          True,
+        )
       if not members:
         continue
       values = group.values
@@ -466,7 +630,10 @@ class Plots:
           panel.cells.append((bar, stage, ns / 1e6, f"{bar}: {stage} {words.significant(ns / 1e6)} ms"))
       panels.append(panel)
     names = f" ({', '.join(self.sweep.swept)})" if self.sweep.swept else ""
-    caption = f"Medians of the stages, one bar a cell{names}, in the sweep's order. Medians need not add up to the median of the frame."
+    caption = (
+      f"Medians of the stages, one bar a cell{names}, in the sweep's order. Medians need not add up to the median"
+      " of the frame."
+    )
     caption += f" Of more than {kMostBars} cells, the fastest {kMostBars}." if cut else ""
     self.list.append(Plot("stages", "bars", "Where the time goes", caption, "ms", "", panels, rows=stages, yLog=False))
 
@@ -491,17 +658,26 @@ def errorTicks(span, zero):
 
 
 def spansOf(plot, panel):
-  """Domains of the axes. Times are each panel's own; ratios and errors are the same in all, so that panels can be compared."""
+  """Domains of the axes. Times are each panel's own; ratios and errors are the same in all, to be compared."""
   spans = {}
   if plot.kind == "heat":
     values = [value for other in plot.panels for _, _, value, _, _ in other.cells if value is not None]
     return {"value": (min(values), max(max(values), min(values) * 1.01))}
   if plot.kind == "bars":
     return spans
+
   def heights(members):
-    found = [v for other in members for p in other.points for v in (p.y, p.low, p.high) if plot.kind == "lines" or v == p.y]
-    found += [y for other in members for _, y, _ in other.levels] + [v for other in members for v in (*(other.band or ()), *(edge for _, *edges in other.bands for edge in edges)) if plot.kind == "lines"]
+    found = [
+      v for other in members for p in other.points for v in (p.y, p.low, p.high) if plot.kind == "lines" or v == p.y
+    ]
+    found += [y for other in members for _, y, _ in other.levels] + [
+      v
+      for other in members
+      for v in (*(other.band or ()), *(edge for _, *edges in other.bands for edge in edges))
+      if plot.kind == "lines"
+    ]
     return found
+
   if plot.kind in ("precision", "strip"):
     spans["x"] = scales.domain([v for p in panel.points for v in (p.x, p.low, p.high)] + list(panel.band or ()), True)
     if plot.kind == "precision":

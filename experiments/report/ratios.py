@@ -1,4 +1,5 @@
 """Ratios of times that were measured in the same rounds, and how far they have to be from 1 to mean something."""
+
 from dataclasses import dataclass
 import math
 
@@ -17,8 +18,8 @@ def spread(values):
 
 
 def paired(a: Samples, b: Samples) -> dict[int, list[float]]:
-  """t_a / t_b for each round in which both had their turn, by session. What slows a machine down for a while slows both, so
-  that it cancels; a round that was broken off and taken up in another session is another round."""
+  """t_a / t_b for each round in which both had their turn, by session. What slows a machine down for a while slows
+  both, so that it cancels; a round that was broken off and taken up in another session is another round."""
   ratios: dict[int, list[float]] = {}
   for turn in sorted(a.keys() & b.keys()):
     ratios.setdefault(turn[0], []).append(float(numpy.median(a[turn]) / numpy.median(b[turn])))
@@ -28,10 +29,10 @@ def paired(a: Samples, b: Samples) -> dict[int, list[float]]:
 def noiseFloor(ratios) -> float:
   """A factor >= 1: how far from 1 the median of as many paired ratios gets though both cells are the same one.
 
-  `ratios` are of the reference to its twin (A/A). Neither of the two comes first, so r and 1/r are equally likely: each draw
-  takes as many ratios as there are, with replacement, turns each over or not by chance, and takes the median, which is what a
-  cell's ratio is, too. The floor is what 95 % of the draws stay within, and never less than the ratio that was observed. Only
-  with few rounds does that last clause bind: of one round there is but one ratio to draw from."""
+  `ratios` are of the reference to its twin (A/A). Neither of the two comes first, so r and 1/r are equally likely: each
+  draw takes as many ratios as there are, with replacement, turns each over or not by chance, and takes the median,
+  which is what a cell's ratio is, too. The floor is what 95 % of the draws stay within, and never less than the ratio
+  that was observed. It needs rounds: of one there is but one ratio to draw from, of two the larger is the floor."""
   logs = numpy.log(numpy.asarray(ratios, float))
   random = numpy.random.Generator(numpy.random.PCG64(1))  # a fixed seed: the same rows give the same page
   shape = (kDraws, len(logs))
@@ -43,6 +44,7 @@ def noiseFloor(ratios) -> float:
 @dataclass
 class Ratio:
   """A cell's time over another's: median and quartiles over `count` rounds."""
+
   median: float
   low: float
   high: float

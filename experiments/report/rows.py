@@ -1,4 +1,5 @@
 """The rows of a sweep: read, checked, and put into groups of cells that may be compared with each other."""
+
 from collections import defaultdict
 from dataclasses import dataclass, field
 import hashlib
@@ -24,25 +25,42 @@ class Cell:
   ratio: ratios.Ratio | None = None  # to its group's reference
 
   @property
-  def number(self): return self.row["sweep"]["cell"]
+  def number(self):
+    return self.row["sweep"]["cell"]
+
   @property
-  def status(self): return self.row["status"]
+  def status(self):
+    return self.row["status"]
+
   @property
-  def message(self): return self.row.get("message", "")
+  def message(self):
+    return self.row.get("message", "")
+
   @property
-  def reference(self): return self.row["sweep"].get("reference", False)
+  def reference(self):
+    return self.row["sweep"].get("reference", False)
+
   @property
-  def twin(self): return self.row["sweep"].get("twin", False)
+  def twin(self):
+    return self.row["sweep"].get("twin", False)
+
   @property
-  def software(self): return self.row["provenance"].get("correctness_only", False)
+  def software(self):
+    return self.row["provenance"].get("correctness_only", False)
+
   @property
-  def timed(self): return self.status == "ok" and bool(self.row.get("time_ns", {}).get("samples"))
+  def timed(self):
+    return self.status == "ok" and bool(self.row.get("time_ns", {}).get("samples"))
+
   @property
-  def ms(self): return self.spread[0]
+  def ms(self):
+    return self.spread[0]
+
   @property
   def spread(self):
     """Median and quartiles, ms."""
     return tuple(value / 1e6 for value in ratios.spread(self.row["time_ns"]["samples"]))
+
   @property
   def fullKey(self):
     provenance = self.row["provenance"]
@@ -54,13 +72,17 @@ class Cell:
     return float(value) if isinstance(value, (int, float)) else None
 
   def mismatches(self, source="error"):
-    return sum(value for name, value in self.row.get(source, {}).items()
-               if name.endswith("_mismatch") and isinstance(value, (int, float)))
+    return sum(
+      value
+      for name, value in self.row.get(source, {}).items()
+      if name.endswith("_mismatch") and isinstance(value, (int, float))
+    )
 
 
 @dataclass
 class Group:
   """Cells of one scene, size, device and number of threads on one machine."""
+
   cells: list
   reference: Cell | None = None
   twin: Cell | None = None
@@ -77,9 +99,13 @@ class Group:
         cell.ratio = self.compare(cell, self.reference)
 
   @property
-  def values(self): return {place: self.cells[0].values[place] for place in kPlaces if place in self.cells[0].values}
+  def values(self):
+    return {place: self.cells[0].values[place] for place in kPlaces if place in self.cells[0].values}
+
   @property
-  def floor(self): return max(self.floors.values()) if self.floors else None
+  def floor(self):
+    return max(self.floors.values()) if self.floors else None
+
   @property
   def candidates(self):
     """What may be fastest: the twin is the reference once more."""
@@ -109,11 +135,12 @@ class Sweep:
   cells: list
   groups: list
   swept: list  # axes that vary, in the file's order
-  plot: dict   # [plot] of sweep.toml
+  plot: dict  # [plot] of sweep.toml
   truth: dict  # [truth], as the rows have it
   notes: list  # lines that the page has to say
 
-  def varies(self, name): return len(self.order(name)) > 1
+  def varies(self, name):
+    return len(self.order(name)) > 1
 
   def order(self, name):
     """The values of an axis or place: numbers by size, words as the sweep has them."""
@@ -121,11 +148,12 @@ class Sweep:
     numbers = [number(name, value) for value in found]
     return found if None in numbers else [value for _, value in sorted(zip(numbers, found))]
 
-  def machines(self): return list(dict.fromkeys(cell.machine for cell in self.cells))
+  def machines(self):
+    return list(dict.fromkeys(cell.machine for cell in self.cells))
 
 
 def number(name, text):
-  """The number that a value stands for on an axis; None for words. A size is the edge of the square with as many pixels."""
+  """What a value stands for on an axis; None for words. A size is the edge of the square with as many pixels."""
   if name in ("scene", "device", "machine"):
     return None
   if name == "size":
@@ -148,15 +176,21 @@ def readLines(path, schema):
       try:
         row = json.loads(text)
       except ValueError as error:
-        raise Refused(f"{where}: not a line of JSON ({error}); a line should be one row, as 'tessera sweep' writes it") from None
+        raise Refused(
+          f"{where}: not a line of JSON ({error}); a line should be one row, as 'tessera sweep' writes it"
+        ) from None
       if not isinstance(row, dict) or "schema_version" not in row:
         raise Refused(f"{where}: not a row; a line should be one row, as 'tessera sweep' writes it")
       if row["schema_version"] != schema:
-        raise Refused(f"{where}: a row of schema version {row['schema_version']}; this report reads version {schema}: "
-                      "make it with the tessera that made the rows, or run the sweep again")
+        raise Refused(
+          f"{where}: a row of schema version {row['schema_version']}; this report reads version {schema}: "
+          "make it with the tessera that made the rows, or run the sweep again"
+        )
       for key, kind in (("sweep", dict), ("status", str), ("provenance", dict), ("scene", dict)):
         if not isinstance(row.get(key), kind):
-          raise Refused(f"{where}: {key}: missing; a sweep's row has it (rows of 'tessera render --json' have no sweep)")
+          raise Refused(
+            f"{where}: {key}: missing; a sweep's row has it (rows of 'tessera render --json' have no sweep)"
+          )
       for key in ("title", "question", "sha256", "cell", "group", "scene", "device"):
         if key not in row["sweep"]:
           raise Refused(f"{where}: sweep.{key}: missing; a sweep's row has it")
@@ -178,10 +212,14 @@ def readPlot(folder, sweep):
   except ValueError as error:
     raise Refused(f"{path}: not TOML: {error}") from None
   if file.get("title") != sweep.title:
-    raise Refused(f"{path}: title: \"{file.get('title')}\", but the rows are of \"{sweep.title}\"; "
-                  "the folder should hold the sweep that gave the rows")
+    raise Refused(
+      f'{path}: title: "{file.get("title")}", but the rows are of "{sweep.title}"; '
+      "the folder should hold the sweep that gave the rows"
+    )
   if hashlib.sha256(text).hexdigest() != sweep.sha256:
-    sweep.notes.append("sweep.toml has been changed since the sweep ran; its [plot] is used, its cells are those of the rows.")
+    sweep.notes.append(
+      "sweep.toml has been changed since the sweep ran; its [plot] is used, its cells are those of the rows."
+    )
   plot = file.get("plot", {})
   known = [*sweep.swept, *kPlaces]
   asked = [("curve", axis) for axis in plot.get("curve", [])]
@@ -189,7 +227,7 @@ def readPlot(folder, sweep):
   asked += [("heat", axis) for pair in plot.get("heat", []) for axis in pair]
   for key, axis in asked:
     if axis not in known:
-      raise Refused(f"{path}: plot.{key}: \"{axis}\" does not vary in these rows; one of {', '.join(known)} would do")
+      raise Refused(f'{path}: plot.{key}: "{axis}" does not vary in these rows; one of {", ".join(known)} would do')
   return plot
 
 
@@ -251,17 +289,24 @@ def readSweep(folder, schema, allDevices=False):
   first = cells[0]
   for cell in cells:
     if cell.row["sweep"]["sha256"] != first.row["sweep"]["sha256"]:
-      raise Refused(f"{path}:{cell.line}: a row of another sweep, \"{cell.row['sweep']['title']}\" "
-                    f"({cell.row['sweep']['sha256'][:12]}), than line {first.line}, \"{first.row['sweep']['title']}\" "
-                    f"({first.row['sweep']['sha256'][:12]}); give each sweep a folder of its own")
+      raise Refused(
+        f'{path}:{cell.line}: a row of another sweep, "{cell.row["sweep"]["title"]}" '
+        f'({cell.row["sweep"]["sha256"][:12]}), than line {first.line}, "{first.row["sweep"]["title"]}" '
+        f"({first.row['sweep']['sha256'][:12]}); give each sweep a folder of its own"
+      )
     if cell.row["sweep"].get("quick", False) != first.row["sweep"].get("quick", False):
-      raise Refused(f"{path}:{cell.line}: one of this row and line {first.line} is of a --quick sweep, the other is not; give each a folder of its own")
+      raise Refused(
+        f"{path}:{cell.line}: one of this row and line {first.line} is of a --quick sweep, the other is not;"
+        " give each a folder of its own"
+      )
   seen = {}
   for cell in cells:
     other = seen.setdefault((cell.fullKey, cell.number), cell)
     if other is not cell:
-      raise Refused(f"{path}:{cell.line}: cell {cell.number} of the same machine is in line {other.line}, too; "
-                    "rows of one machine should be there once")
+      raise Refused(
+        f"{path}:{cell.line}: cell {cell.number} of the same machine is in line {other.line}, too; "
+        "rows of one machine should be there once"
+      )
   nameMachines(cells)
   for cell in cells:
     cell.values = valuesOf(cell, allDevices)
@@ -274,8 +319,18 @@ def readSweep(folder, schema, allDevices=False):
   swept = [axis for axis in dict.fromkeys(axis for cell in cells for axis in cell.row["sweep"].get("swept", []))]
   truth = next((cell.row["truth"] for cell in cells if cell.row.get("truth")), {})
   about = first.row["sweep"]
-  sweep = Sweep(folder, about["title"], about["question"], about["sha256"], cells,
-                [Group(members) for members in groups.values()], swept, {}, truth, [])
+  sweep = Sweep(
+    folder,
+    about["title"],
+    about["question"],
+    about["sha256"],
+    cells,
+    [Group(members) for members in groups.values()],
+    swept,
+    {},
+    truth,
+    [],
+  )
   if about.get("quick"):
     sweep.notes.append("These rows are of a --quick sweep, with sizes, rounds and scenes as in [quick].")
   sweep.plot = readPlot(folder, sweep)

@@ -1,4 +1,5 @@
 """Domains and ticks of axes, the same on the page and on paper."""
+
 import math
 
 
@@ -16,7 +17,7 @@ def powers(low, high, most=7):
   """1, 2 and 5 times powers of ten, or fewer of these where that is plenty."""
   exponents = range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
   for factors in ((1, 2, 5), (1, 3), (1,)):
-    found = [factor * 10.0 ** exponent for exponent in exponents for factor in factors]
+    found = [factor * 10.0**exponent for exponent in exponents for factor in factors]
     found = [tick for tick in found if low <= tick * (1 + 1e-9) and tick <= high]
     if len(found) <= most:
       break

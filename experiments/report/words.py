@@ -1,19 +1,20 @@
 """How numbers and names are written, on the page and in figures."""
+
 import math
 
 # What a field of `error` counts or measures.
 kErrors = {
-    "coverage_mismatch": "pixels covered in one image only",
-    "id_mismatch": "pixels with another triangle",
-    "depth_mismatch": "pixels with another depth",
-    "hit_count_mismatch": "pixels with another number of hits",
-    "hit_count_not_one": "pixels not hit exactly once",
-    "attribute_mismatch": "pixels with another value",
-    "attribute_max": "largest error of a value",
-    "attribute_rms": "root mean square error of a value",
-    "depth_max_ulp": "largest error of depth, ulp",
-    "depth_max_abs": "largest error of depth",
-    "psnr": "PSNR, dB",
+  "coverage_mismatch": "pixels covered in one image only",
+  "id_mismatch": "pixels with another triangle",
+  "depth_mismatch": "pixels with another depth",
+  "hit_count_mismatch": "pixels with another number of hits",
+  "hit_count_not_one": "pixels not hit exactly once",
+  "attribute_mismatch": "pixels with another value",
+  "attribute_max": "largest error of a value",
+  "attribute_rms": "root mean square error of a value",
+  "depth_max_ulp": "largest error of depth, ulp",
+  "depth_max_abs": "largest error of depth",
+  "psnr": "PSNR, dB",
 }
 
 
@@ -53,13 +54,13 @@ def count(number, one, many=None):
 
 
 def pixels(number, field):
-  """"1 pixel with another depth", "1,234 pixels ..."."""
+  """ "1 pixel with another depth", "1,234 pixels ..."."""
   name = kErrors.get(field, field)
   return f"{significant(number)} {name.replace('pixels', 'pixel', 1) if number == 1 else name}"
 
 
 def listing(items):
-  """"a", "a and b", "a, b and c"."""
+  """ "a", "a and b", "a, b and c"."""
   items = list(items)
   return " and ".join([", ".join(items[:-1]), items[-1]] if len(items) > 1 else items)
 

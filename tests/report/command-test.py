@@ -1,4 +1,5 @@
-"""The command itself: what it writes, and what it says to folders that are not as they should be. TESSERA names the program."""
+"""What `tessera report` writes, and what it says to folders that are not as they should be. TESSERA names it."""
+
 import hashlib
 import json
 import tempfile
@@ -39,18 +40,26 @@ class Command(unittest.TestCase):
   def testRowsThatAreNone(self):
     rows = sample.write(self.folder, only(scene="ball", edge=256, device="cpu")) / "rows.jsonl"
     lines = rows.read_text().splitlines(keepends=True)
+
     def refusedWith(line, *parts):
       rows.write_text("".join(lines[:2]) + line + "".join(lines[2:]))
       self.refused(tessera("report", self.folder), 2, "rows.jsonl:3: ", *parts)
+
     row = json.loads(lines[2])
     refusedWith(lines[2][:80] + "\n", "not a line of JSON")
     refusedWith("[1]\n", "not a row")
     refusedWith(json.dumps(row | {"schema_version": 1}) + "\n", "schema version 1", f"reads version {support.kSchema}")
     refusedWith(json.dumps({key: value for key, value in row.items() if key != "sweep"}) + "\n", "sweep: missing")
-    refusedWith(json.dumps(row | {"sweep": row["sweep"] | {"sha256": "f" * 64, "title": "Other"}}) + "\n", 'another sweep, "Other"', "than line 1")
+    refusedWith(
+      json.dumps(row | {"sweep": row["sweep"] | {"sha256": "f" * 64, "title": "Other"}}) + "\n",
+      'another sweep, "Other"',
+      "than line 1",
+    )
     refusedWith(json.dumps(row | {"sweep": row["sweep"] | {"quick": True}}) + "\n", "--quick", "line 1")
     rows.write_text("".join(lines + lines[:1]))
-    self.refused(tessera("report", self.folder), 2, f"rows.jsonl:{len(lines) + 1}: cell 0 of the same machine is in line 1")
+    self.refused(
+      tessera("report", self.folder), 2, f"rows.jsonl:{len(lines) + 1}: cell 0 of the same machine is in line 1"
+    )
 
   def testSweepFilesOfOtherRows(self):
     write = lambda toml: sample.write(self.folder, only(scene="ball", edge=256, device="cpu"), toml)
@@ -67,11 +76,20 @@ class Command(unittest.TestCase):
     sample.write(self.folder, only(scene="ball", edge=256, device="cpu"))
     self.refused(tessera("report", self.folder, "--export", "rows.csv"), 2, "rows.csv", ".parquet or .duckdb")
     self.refused(tessera("report", self.folder, "--export", "/nowhere/rows.parquet"), 2, "/nowhere/rows.parquet")
-    self.refused(tessera("report", self.folder, TESSERA_PYTHON="/nowhere/python"), 1, "/nowhere/python", "TESSERA_PYTHON")
-    self.refused(tessera("report", self.folder, TESSERA_PYTHON="/usr/bin/python3"), 1, "/usr/bin/python3 has no", "./dev build")
+    self.refused(
+      tessera("report", self.folder, TESSERA_PYTHON="/nowhere/python"), 1, "/nowhere/python", "TESSERA_PYTHON"
+    )
+    self.refused(
+      tessera("report", self.folder, TESSERA_PYTHON="/usr/bin/python3"),
+      1,
+      "/usr/bin/python3 has no",
+      "./dev build",
+    )
 
   def testTheSameRowsGiveTheSameFilesAndAnExport(self):
-    one = "\n".join(line for line in sample.kToml.splitlines() if not line.startswith("against")) + '\nagainst = ["tile"]\n'
+    one = (
+      "\n".join(line for line in sample.kToml.splitlines() if not line.startswith("against")) + '\nagainst = ["tile"]\n'
+    )
     files = []
     for name, zone in (("rows.parquet", "UTC"), ("rows.duckdb", "Asia/Tokyo")):
       folder = sample.write(self.folder.with_name(name + ".results"), only(edge=512, scene="ball", device="cpu"), one)
@@ -79,9 +97,23 @@ class Command(unittest.TestCase):
       self.assertEqual((result.returncode, result.stderr), (0, ""))
       self.assertIn(f"wrote {folder / name}", result.stdout)
       self.checkExport(folder, folder / name)
-      files.append({str(path.relative_to(folder)): hashlib.sha256(path.read_bytes()).hexdigest() for path in sorted((folder / "report").rglob("*")) if path.is_file()})
+      files.append(
+        {
+          str(path.relative_to(folder)): hashlib.sha256(path.read_bytes()).hexdigest()
+          for path in sorted((folder / "report").rglob("*"))
+          if path.is_file()
+        }
+      )
     self.assertEqual(*files)
-    for name in ("figure", "work-precision", "against-tile", "ratio-against-tile", "error-against-tile", "heat-tile-binning", "stages"):
+    for name in (
+      "figure",
+      "work-precision",
+      "against-tile",
+      "ratio-against-tile",
+      "error-against-tile",
+      "heat-tile-binning",
+      "stages",
+    ):
       for kind in ("svg", "pdf", "png"):
         self.assertIn(f"report/figures/{name}.{kind}", files[0])
     figures = folder / "report" / "figures"
@@ -95,9 +127,14 @@ class Command(unittest.TestCase):
       ask = lambda query: database.execute(query).fetchone()
       self.assertEqual(ask(f"SELECT count(*) FROM {table}"), (len(rows),))
       tile, ms, ratio, verdict, mismatch, first = ask(
-          f"SELECT variant.tile, ms, ratio, verdict, error.coverage_mismatch, time_ns.samples[1] FROM {table} WHERE machine = 'AMD EPYC' AND sweep.cell = 16")
+        f"SELECT variant.tile, ms, ratio, verdict, error.coverage_mismatch, time_ns.samples[1] FROM {table}"
+        " WHERE machine = 'AMD EPYC' AND sweep.cell = 16"
+      )
       row = next(row for row in rows if row["sweep"]["cell"] == 16)
-      self.assertEqual((tile, verdict, mismatch, first), ("8", "faster", row["error"]["coverage_mismatch"], row["time_ns"]["samples"][0]))
+      self.assertEqual(
+        (tile, verdict, mismatch, first),
+        ("8", "faster", row["error"]["coverage_mismatch"], row["time_ns"]["samples"][0]),
+      )
       self.assertAlmostEqual(ms, row["time_ns"]["median"] / 1e6)
       self.assertTrue(0.85 < ratio < 0.95)
       self.assertEqual(ask(f"SELECT count(*) FROM {table} WHERE status = 'overflow' AND ms IS NULL"), (2,))
@@ -105,7 +142,10 @@ class Command(unittest.TestCase):
   def testRowsOfASweepThatWasKilled(self):
     """Rows come from the journal where they are missing."""
     toml = Path(self.temporary.name) / "tiny.toml"
-    toml.write_text('title = "Tiny"\nquestion = "Is there a row?"\nsizes = [32]\nrounds = 2\nthreads = [1]\n[scenes]\nball = "generate:icosphere?level=1"\n[axes]\ntile = [32, 64]\n')
+    toml.write_text(
+      'title = "Tiny"\nquestion = "Is there a row?"\nsizes = [32]\nrounds = 2\nthreads = [1]\n[scenes]\nball ='
+      ' "generate:icosphere?level=1"\n[axes]\ntile = [32, 64]\n'
+    )
     swept = tessera("sweep", toml, "--out", self.folder)
     self.assertEqual(swept.returncode, 0, swept.stderr)
     (self.folder / "rows.jsonl").unlink()

@@ -1,4 +1,5 @@
 """The page in a real browser: headless chromium by Selenium."""
+
 import json
 import os
 import tempfile
@@ -26,7 +27,13 @@ class Browser(unittest.TestCase):
     cls.file.write_text(page.Page(cls.sweep, cls.plots, []).html(), encoding="utf-8")
     options = webdriver.ChromeOptions()
     options.binary_location = "/usr/bin/chromium"
-    for argument in ("--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--disable-gpu", f"--user-data-dir={cls.folder.name}/profile"):
+    for argument in (
+      "--headless=new",
+      "--no-sandbox",
+      "--disable-dev-shm-usage",
+      "--disable-gpu",
+      f"--user-data-dir={cls.folder.name}/profile",
+    ):
       options.add_argument(argument)
     options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
     cls.driver = webdriver.Chrome(options=options, service=webdriver.ChromeService("/usr/bin/chromedriver"))
@@ -39,7 +46,10 @@ class Browser(unittest.TestCase):
 
   @classmethod
   def open(cls, width):
-    cls.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {"width": width, "height": 900, "deviceScaleFactor": 1, "mobile": False})
+    cls.driver.execute_cdp_cmd(
+      "Emulation.setDeviceMetricsOverride",
+      {"width": width, "height": 900, "deviceScaleFactor": 1, "mobile": False},
+    )
     cls.driver.get(cls.file.as_uri())
     for _ in range(300):
       if cls.driver.execute_script("return document.body.dataset.charts") == "drawn":
@@ -49,12 +59,18 @@ class Browser(unittest.TestCase):
 
   def visible(self, column):
     """The texts of a column of the rows that are shown."""
-    return self.driver.execute_script("""
+    return self.driver.execute_script(
+      """
       return [...document.querySelector('#all-rows').tBodies[0].rows].filter(row => row.offsetParent !== null)
-        .map(row => row.cells[arguments[0]].textContent)""", column)
+        .map(row => row.cells[arguments[0]].textContent)""",
+      column,
+    )
 
   def column(self, name):
-    heads = [head.text.strip("\u2195\u2191\u2193\u00a0 ") for head in self.driver.find_elements(By.CSS_SELECTOR, "#all-rows thead th")]
+    heads = [
+      head.text.strip("\u2195\u2191\u2193\u00a0 ")
+      for head in self.driver.find_elements(By.CSS_SELECTOR, "#all-rows thead th")
+    ]
     return heads.index(name)
 
   def testNoErrorAndNoRequest(self):
@@ -78,7 +94,8 @@ class Browser(unittest.TestCase):
   def testEveryChartHasItsMarks(self):
     counts = self.driver.execute_script("""
       return [...document.querySelectorAll('.chart')].map(chart => ({
-        symbols: chart.querySelectorAll('svg .mark-symbol.role-mark path').length, rects: chart.querySelectorAll('svg .mark-rect.role-mark path').length,
+        symbols: chart.querySelectorAll('svg .mark-symbol.role-mark path').length,
+        rects: chart.querySelectorAll('svg .mark-rect.role-mark path').length,
         label: chart.getAttribute('aria-label') ?? ''}))""")
     panels = [(plot, panel) for plot in self.plots.list for panel in plot.panels]
     self.assertEqual(len(counts), len(panels))
@@ -93,14 +110,20 @@ class Browser(unittest.TestCase):
   def testNeitherWidthScrollsSideways(self):
     for width in (1280, 400):
       self.open(width)
-      size = self.driver.execute_script("return [document.documentElement.scrollWidth, window.innerWidth, document.querySelector('.chart svg').getBoundingClientRect().right]")
+      size = self.driver.execute_script(
+        "return [document.documentElement.scrollWidth, window.innerWidth, document.querySelector('.chart"
+        " svg').getBoundingClientRect().right]"
+      )
       self.assertEqual(size[1], width)
       self.assertLessEqual(size[0], width)
       self.assertLessEqual(size[2], width)
     self.open(1280)
 
   def testPicturesAreWholeAndNotSmallerThanTheyAre(self):
-    shown = self.driver.execute_script("return [...document.images].map(image => [image.complete, image.naturalWidth, image.getBoundingClientRect().width, image.alt])")
+    shown = self.driver.execute_script(
+      "return [...document.images].map(image => [image.complete, image.naturalWidth,"
+      " image.getBoundingClientRect().width, image.alt])"
+    )
     self.assertGreater(len(shown), 0)
     for complete, natural, width, alt in shown:
       self.assertTrue(complete and natural > 0)
@@ -114,7 +137,9 @@ class Browser(unittest.TestCase):
     box.send_keys("unsupported Xeon")
     wanted = [cell for cell in self.sweep.cells if cell.status == "unsupported" and cell.machine == "Intel Xeon"]
     self.assertEqual(self.visible(status), ["unsupported"] * len(wanted))
-    self.assertEqual(self.driver.find_element(By.ID, "filter-shown").text, f"{len(wanted)} of {len(self.sweep.cells)} rows")
+    self.assertEqual(
+      self.driver.find_element(By.ID, "filter-shown").text, f"{len(wanted)} of {len(self.sweep.cells)} rows"
+    )
     box.send_keys(Keys.CONTROL, "a")
     box.send_keys(Keys.DELETE)
     self.assertEqual(len(self.visible(status)), len(self.sweep.cells))
@@ -135,8 +160,13 @@ class Browser(unittest.TestCase):
 
   def testWordsSayWhatTheRowsHold(self):
     text = self.driver.find_element(By.TAG_NAME, "body").text
-    for part in (self.sweep.question, "tile=8 with binning=bitmask: at least 16 would do <for masks & words>", "a frame took longer than 60 s",
-                 "never between two", "is fastest, or equal to the fastest, in"):
+    for part in (
+      self.sweep.question,
+      "tile=8 with binning=bitmask: at least 16 would do <for masks & words>",
+      "a frame took longer than 60 s",
+      "never between two",
+      "is fastest, or equal to the fastest, in",
+    ):
       self.assertIn(part, text)
     commands = {element.text for element in self.driver.find_elements(By.CSS_SELECTOR, "#all-rows td.command code")}
     self.assertEqual(commands, {cell.row["command"] for cell in self.sweep.cells})

@@ -1,5 +1,5 @@
 """Ratios and their noise floor against figures worked by hand; groups, machines, fronts and pictures."""
-import math
+
 import tempfile
 import unittest
 from pathlib import Path
@@ -52,8 +52,8 @@ class Ratios(unittest.TestCase):
     self.assertGreaterEqual(ratios.noiseFloor([1.2, 1.2, 1.2, 1.2, 1.2, 1.2, 1.2]), 1.2)
 
   def testFloorOfTwoRatiosByHand(self):
-    # Of logs +-a and +-b a draw's median is the mean of two: |mean| is b with probability 1/8 (twice b, of one sign), so that the
-    # 95th percentile is b itself.
+    # Of logs +-a and +-b a draw's median is the mean of two: |mean| is b with probability 1/8 (twice b, of one sign),
+    # so that the 95th percentile is b itself.
     self.assertAlmostEqual(ratios.noiseFloor([1.1, 1.3]), 1.3)
 
   def testFloorShrinksWithRounds(self):
@@ -67,7 +67,9 @@ class Ratios(unittest.TestCase):
     equal = 0
     for _ in range(200):
       drift = random.uniform(1, 2, 9)
-      reference, twin, cell = ({(0, turn): [t] for turn, t in enumerate(drift * numpy.exp(random.normal(0, 0.03, 9)))} for _ in range(3))
+      reference, twin, cell = (
+        {(0, turn): [t] for turn, t in enumerate(drift * numpy.exp(random.normal(0, 0.03, 9)))} for _ in range(3)
+      )
       floors = {0: ratios.noiseFloor(ratios.paired(twin, reference)[0])}
       equal += ratios.ratio(cell, reference, floors).equal
     self.assertGreater(equal, 170)
@@ -91,7 +93,10 @@ class Sample(unittest.TestCase):
     self.assertEqual(self.sweep.machines(), ["AMD EPYC", "Intel Xeon"])
     for group in self.sweep.groups:
       self.assertEqual(len({cell.fullKey for cell in group.cells}), 1)
-    mine, other = (next(group for group in self.sweep.groups if group.cells[0].machine == machine) for machine in self.sweep.machines())
+    mine, other = (
+      next(group for group in self.sweep.groups if group.cells[0].machine == machine)
+      for machine in self.sweep.machines()
+    )
     self.assertIsNone(mine.compare(other.candidates[1], mine.reference))
     self.assertAlmostEqual(other.reference.ratio.median, 1)
 
@@ -111,7 +116,9 @@ class Sample(unittest.TestCase):
     group = self.sweep.groups[0]
     self.assertEqual(sorted(group.floors), [0, 1])
     pairs = ratios.paired(group.twin.samples, group.reference.samples)
-    self.assertEqual([len(pairs[session]) for session in (0, 1)], [4, 5])  # three rounds of session 1, and two taken again
+    self.assertEqual(
+      [len(pairs[session]) for session in (0, 1)], [4, 5]
+    )  # three rounds of session 1, and two taken again
     self.assertEqual(group.candidates[1].ratio.floor, max(group.floors.values()))
     self.assertEqual(group.candidates[1].ratio.count, sample.kRounds)  # only the reference was taken again
 
@@ -125,15 +132,28 @@ class Sample(unittest.TestCase):
   def testPlotsAndWhatIsLeftOut(self):
     made = plots.Plots(self.sweep, False)
     names = [plot.name for plot in made.list]
-    for name in ("work-precision", "against-tile", "ratio-against-tile", "error-against-tile", "against-scene", "against-x", "heat-tile-binning", "stages"):
+    for name in (
+      "work-precision",
+      "against-tile",
+      "ratio-against-tile",
+      "error-against-tile",
+      "against-scene",
+      "against-x",
+      "heat-tile-binning",
+      "stages",
+    ):
       self.assertIn(name, names)
     self.assertEqual(made.figure(), "ratio-against-tile")
     for plot in made.list:
       self.assertRegex(plot.caption, r"^[A-Z][^{}]*\.$")
     self.assertTrue(any("llvmpipe" in line and "--all-devices" in line for line in made.skipped), made.skipped)
-    self.assertTrue(any(line.startswith("coverage_mismatch from the exact image") for line in made.skipped), made.skipped)
+    self.assertTrue(
+      any(line.startswith("coverage_mismatch from the exact image") for line in made.skipped), made.skipped
+    )
     timed = next(plot for plot in made.list if plot.name == "against-tile")
-    self.assertEqual([panel.title for panel in timed.panels][:2], ["AMD EPYC, ball, 256 x 256", "AMD EPYC, ball, 512 x 512"])
+    self.assertEqual(
+      [panel.title for panel in timed.panels][:2], ["AMD EPYC, ball, 256 x 256", "AMD EPYC, ball, 512 x 512"]
+    )
     self.assertTrue(timed.xLog)
     self.assertEqual(len(timed.panels[0].points), 12)
     self.assertEqual([curve for curve, _, _ in timed.panels[0].levels], ["binning=none"])  # it has no tile
@@ -142,7 +162,10 @@ class Sample(unittest.TestCase):
     self.assertAlmostEqual(reference, self.sweep.groups[0].reference.ms ** 2)
     # Errors are the same on every device, so that one panel a scene and size is enough.
     errors = next(plot for plot in made.list if plot.name == "error-against-tile")
-    self.assertEqual([panel.title for panel in errors.panels], ["ball, 256 x 256", "ball, 512 x 512", "field, 256 x 256", "field, 512 x 512"])
+    self.assertEqual(
+      [panel.title for panel in errors.panels],
+      ["ball, 256 x 256", "ball, 512 x 512", "field, 256 x 256", "field, 512 x 512"],
+    )
 
   def testSoftwareDriversWhereAskedFor(self):
     with tempfile.TemporaryDirectory() as folder:
@@ -158,17 +181,23 @@ class Sample(unittest.TestCase):
         if "error" in row:
           row["error"] = dict.fromkeys(row["error"], 0)
       return row
+
     with tempfile.TemporaryDirectory() as folder:
       made = plots.Plots(support.read(sample.write(Path(folder), exact)), False)
       self.assertEqual(made.list[0].kind, "strip")
-      self.assertTrue(any("no cell has an error" in line and "work-precision" in line for line in made.skipped), made.skipped)
+      self.assertTrue(
+        any("no cell has an error" in line and "work-precision" in line for line in made.skipped), made.skipped
+      )
       self.assertFalse(any(plot.name.startswith("error-") for plot in made.list))
 
 
 class Parts(unittest.TestCase):
   def testFront(self):
     point = lambda x, y: plots.Point(x, y, x, x, "", "")
-    self.assertEqual(plots.front([point(3, 1), point(1, 5), point(2, 6), point(2, 4), point(4, 1), point(5, 0.5)]), [(1, 5), (2, 4), (3, 1), (5, 0.5)])
+    self.assertEqual(
+      plots.front([point(3, 1), point(1, 5), point(2, 6), point(2, 4), point(4, 1), point(5, 0.5)]),
+      [(1, 5), (2, 4), (3, 1), (5, 0.5)],
+    )
 
   def testLogarithmicAxes(self):
     self.assertTrue(plots.isLogarithmic([8, 16, 64]))
@@ -183,14 +212,17 @@ class Parts(unittest.TestCase):
     self.assertEqual(plots.errorTicks((0.05, 30), 0.1), ([0.1, 1, 2, 5, 10, 20], ["0", "1", "2", "5", "10", "20"]))
 
   def testNumbers(self):
-    self.assertEqual([words.significant(value) for value in (0, 12, 1234.5, 0.012345, 2.5e-7)], ["0", "12", "1,234", "0.0123", "2.50e-07"])
+    self.assertEqual(
+      [words.significant(value) for value in (0, 12, 1234.5, 0.012345, 2.5e-7)],
+      ["0", "12", "1,234", "0.0123", "2.50e-07"],
+    )
 
   def testSmallerPictureKeepsTheWrongPixel(self):
     pixels = numpy.full((1000, 700, 3), 230, numpy.uint8)
     pixels[100:400] = 190
-    pixels[501, 333] = (0, 114, 178)    # id
-    pixels[502, 334] = (213, 94, 0)     # coverage, in the same block: it tells more
-    pixels[999, 699] = (240, 228, 66)   # depth, in the corner
+    pixels[501, 333] = (0, 114, 178)  # id
+    pixels[502, 334] = (213, 94, 0)  # coverage, in the same block: it tells more
+    pixels[999, 699] = (240, 228, 66)  # depth, in the corner
     small, factor = pictures.pool(pixels, 256)
     self.assertEqual((small.shape, factor), ((250, 175, 3), 4))
     self.assertEqual([tuple(small[125, 83]), tuple(small[249, 174])], [(213, 94, 0), (240, 228, 66)])

@@ -1,4 +1,5 @@
-"""Rows as a sweep leaves them, made up: two scenes, two sizes, three axes, noise, errors of every kind, two machines."""
+"""Rows as a sweep leaves them, made up: two scenes, sizes and machines, three axes, noise, errors of every kind."""
+
 import hashlib
 import json
 import random
@@ -27,10 +28,30 @@ x-label = "triangles along an edge"
 heat = [["tile", "binning"]]
 figure = "ratio-against-tile"
 """
-kEpyc = {"cpu": "AMD EPYC", "os": "Linux 6.1 x86_64", "device": "AMD EPYC", "driver": "g++ 12.2.0", "api": "cpu", "threads": 2}
-kXeon = {"cpu": "Intel Xeon", "os": "Linux 6.1 x86_64", "device": "Intel Xeon", "driver": "g++ 12.2.0", "api": "cpu", "threads": 8}
-kPipe = {"cpu": "AMD EPYC", "os": "Linux 6.1 x86_64", "device": "llvmpipe", "driver": "Mesa 22.3.6", "api": "vulkan 1.3",
-         "correctness_only": True}
+kEpyc = {
+  "cpu": "AMD EPYC",
+  "os": "Linux 6.1 x86_64",
+  "device": "AMD EPYC",
+  "driver": "g++ 12.2.0",
+  "api": "cpu",
+  "threads": 2,
+}
+kXeon = {
+  "cpu": "Intel Xeon",
+  "os": "Linux 6.1 x86_64",
+  "device": "Intel Xeon",
+  "driver": "g++ 12.2.0",
+  "api": "cpu",
+  "threads": 8,
+}
+kPipe = {
+  "cpu": "AMD EPYC",
+  "os": "Linux 6.1 x86_64",
+  "device": "llvmpipe",
+  "driver": "Mesa 22.3.6",
+  "api": "vulkan 1.3",
+  "correctness_only": True,
+}
 kStages = {"transform": 0.1, "setup": 0.15, "bin-count": 0.1, "bin-insert": 0.15, "raster-tiles": 0.5}
 kRounds = 7
 
@@ -38,6 +59,7 @@ kRounds = 7
 def picture(path, edge):
   """Grey, with one wrong pixel: what a smaller picture must not lose."""
   from PIL import Image
+
   image = Image.new("RGB", (edge, edge), (230, 230, 230))
   image.paste((190, 190, 190), (edge // 4, edge // 4, edge // 2, edge // 2))
   image.putpixel((3, edge - 5), (213, 94, 0))
@@ -49,8 +71,12 @@ def rows(folder, machines=((kEpyc, "cpu", 1.0), (kPipe, "vulkan", 30.0), (kXeon,
   """Machines are (provenance, device as asked for, slowness). The times of a machine drift from round to round."""
   sha256 = hashlib.sha256(kToml.encode()).hexdigest()
   random_ = random.Random(7)
-  cells = [{"tile": str(tile), "binning": binning, "edge": edge}
-           for tile in (8, 16, 32) for binning in ("exact", "bitmask") for edge in ("int32", "float32-plane")]
+  cells = [
+    {"tile": str(tile), "binning": binning, "edge": edge}
+    for tile in (8, 16, 32)
+    for binning in ("exact", "bitmask")
+    for edge in ("int32", "float32-plane")
+  ]
   cells.insert(1, cells[0])  # the twin
   cells.append({"binning": "none"})
   for machine, device, slowness in machines:
@@ -59,18 +85,33 @@ def rows(folder, machines=((kEpyc, "cpu", 1.0), (kPipe, "vulkan", 30.0), (kXeon,
       for edge in (256, 512):
         drift = {turn: 1 + 0.3 * random_.random() for turn in range(-kRounds, kRounds)}
         for index, asked in enumerate(cells):
-          row = {"schema_version": kSchema, "run_id": f"{machine['cpu']}-{number}",
-                 "variant": {"tile": "64", **asked, "sub-pixel": "8"},
-                 "scene": {"name": scene, "sha256": "0" * 64, "triangles": triangles, "size": [edge, edge]}, "status": "ok"}
+          row = {
+            "schema_version": kSchema,
+            "run_id": f"{machine['cpu']}-{number}",
+            "variant": {"tile": "64", **asked, "sub-pixel": "8"},
+            "scene": {"name": scene, "sha256": "0" * 64, "triangles": triangles, "size": [edge, edge]},
+            "status": "ok",
+          }
           # bitmask is as fast as exact, but for a hair; larger tiles are faster; the cheap edges save a tenth.
           size = int(asked.get("tile", 64))
-          ms = slowness * (edge / 256) ** 1.5 * x ** 0.2 * (1 + 8 / size) * (1.004 if asked["binning"] == "bitmask" else 1)
+          ms = (
+            slowness * (edge / 256) ** 1.5 * x**0.2 * (1 + 8 / size) * (1.004 if asked["binning"] == "bitmask" else 1)
+          )
           ms *= 0.9 if asked.get("edge") == "float32-plane" else 1
           if (scene, size, asked["binning"]) == ("field", 8, "bitmask"):
-            row |= {"status": "unsupported", "message": "tile=8 with binning=bitmask: at least 16 would do <for masks & words>"}
+            row |= {
+              "status": "unsupported",
+              "message": "tile=8 with binning=bitmask: at least 16 would do <for masks & words>",
+            }
           elif (scene, edge, size, asked.get("edge")) == ("field", 512, 16, "float32-plane"):
             row |= {"status": "timeout", "message": "a frame took longer than 60 s"}
-          elif (scene, edge, size, asked["binning"], asked.get("edge")) == ("ball", 512, 32, "bitmask", "int32"):
+          elif (scene, edge, size, asked["binning"], asked.get("edge")) == (
+            "ball",
+            512,
+            32,
+            "bitmask",
+            "int32",
+          ):
             row |= {"status": "error", "message": "12 pixels differ from the oracle"}
           elif (scene, edge, asked["binning"]) == ("ball", 512, "none"):
             row |= {"status": "overflow", "message": "bin 3 holds 9000 of 8192"}
@@ -81,30 +122,70 @@ def rows(folder, machines=((kEpyc, "cpu", 1.0), (kPipe, "vulkan", 30.0), (kXeon,
           ordered = sorted(samples)
           if row["status"] == "ok":
             median = ordered[kRounds // 2]
-            row["time_ns"] = {"samples": samples, "rounds": turns, "sessions": sessions, "median": median, "min": ordered[0],
-                              "iqr": ordered[5] - ordered[1], "clock": "timestamp" if device == "vulkan" else "wall",
-                              "stages": {stage: share * median for stage, share in kStages.items()}}
+            row["time_ns"] = {
+              "samples": samples,
+              "rounds": turns,
+              "sessions": sessions,
+              "median": median,
+              "min": ordered[0],
+              "iqr": ordered[5] - ordered[1],
+              "clock": "timestamp" if device == "vulkan" else "wall",
+              "stages": {stage: share * median for stage, share in kStages.items()},
+            }
             if index < 2:  # a sweep that was resumed in round 4
               row["time_ns"]["again"] = {"samples": times([0, 1]), "rounds": [0, 1], "sessions": [1, 1]}
             wrong = round(edge * x / 8) if asked.get("edge") == "float32-plane" else 0
-            row["error"] = {"pixels": edge * edge, "coverage_mismatch": wrong, "id_mismatch": 2 * wrong, "depth_mismatch": 0}
+            row["error"] = {
+              "pixels": edge * edge,
+              "coverage_mismatch": wrong,
+              "id_mismatch": 2 * wrong,
+              "depth_mismatch": 0,
+            }
             row["truth"] = {"sub-pixel": "8"}
             row["truth_error"] = {"coverage_mismatch": wrong, "id_mismatch": 2 * wrong}
-            row["counters"] = {"tests": 1000 * size, "binned": 90000 // size, "covered": edge * edge // 2, "overflowed": 0}
+            row["counters"] = {
+              "tests": 1000 * size,
+              "binned": 90000 // size,
+              "covered": edge * edge // 2,
+              "overflowed": 0,
+            }
             row["memory"] = {"peak_buffer_bytes": 4096 * size}
             if wrong:
               row["picture"] = f"pictures/{number}.png"
               if not (folder / row["picture"]).exists():
                 picture(folder / row["picture"], edge)
           row["plan"] = {"clear": {"kept": False, "why": "each tile writes all of its own pixels"}}
-          row["provenance"] = {"git": "0123456789ab", "dirty": False, "build_type": "Release", "compiler": "GNU 12.2.0",
-                               "flags": "-O3", "slang": "2026.14.1", "kernel_compiler": "g++ 12.2.0", **machine, "seed": 1,
-                               "utc": "2026-11-23T12:00:00Z"}
+          row["provenance"] = {
+            "git": "0123456789ab",
+            "dirty": False,
+            "build_type": "Release",
+            "compiler": "GNU 12.2.0",
+            "flags": "-O3",
+            "slang": "2026.14.1",
+            "kernel_compiler": "g++ 12.2.0",
+            **machine,
+            "seed": 1,
+            "utc": "2026-11-23T12:00:00Z",
+          }
           settings = " ".join(f"--set {axis}={value}" for axis, value in asked.items())
-          row["command"] = f"tessera render 'generate:icosphere?level=4' --size {edge}x{edge} {settings} --repeat 1 --json -"
-          row["sweep"] = {"title": "Sample", "question": "Does the report show what the rows hold?", "sha256": sha256,
-                          "cell": number, "group": group, "reference": index < 2, "twin": index == 1, "asked": asked,
-                          "swept": ["tile", "binning", "edge"], "scene": scene, "x": x, "device": device, "threads": 0}
+          row["command"] = (
+            f"tessera render 'generate:icosphere?level=4' --size {edge}x{edge} {settings} --repeat 1 --json -"
+          )
+          row["sweep"] = {
+            "title": "Sample",
+            "question": "Does the report show what the rows hold?",
+            "sha256": sha256,
+            "cell": number,
+            "group": group,
+            "reference": index < 2,
+            "twin": index == 1,
+            "asked": asked,
+            "swept": ["tile", "binning", "edge"],
+            "scene": scene,
+            "x": x,
+            "device": device,
+            "threads": 0,
+          }
           yield row
           number += 1
         group += 1

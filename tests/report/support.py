@@ -1,4 +1,5 @@
 """What the tests of the report share: the modules under test, made-up rows, and the command."""
+
 import os
 from pathlib import Path
 import subprocess
@@ -16,9 +17,16 @@ kSchema = sample.kSchema
 
 def only(**wanted):
   """Rows of these scenes, sizes or devices alone: `change` of sample.write."""
+
   def change(row):
-    have = {"scene": row["sweep"]["scene"], "edge": row["scene"]["size"][0], "device": row["sweep"]["device"], "cpu": row["provenance"]["cpu"]}
+    have = {
+      "scene": row["sweep"]["scene"],
+      "edge": row["scene"]["size"][0],
+      "device": row["sweep"]["device"],
+      "cpu": row["provenance"]["cpu"],
+    }
     return row if all(have[name] == value for name, value in wanted.items()) else None
+
   return change
 
 
@@ -28,4 +36,10 @@ def read(folder, allDevices=False):
 
 def tessera(*arguments, **environment):
   """Runs the command that TESSERA names, with output as text."""
-  return subprocess.run([os.environ["TESSERA"], *map(str, arguments)], capture_output=True, text=True, env=os.environ | environment, timeout=100)
+  return subprocess.run(
+    [os.environ["TESSERA"], *map(str, arguments)],
+    capture_output=True,
+    text=True,
+    env=os.environ | environment,
+    timeout=100,
+  )
