@@ -4,7 +4,7 @@ import math
 
 import altair as alt
 
-import plots
+import panels
 import scales
 
 kHeight = 220
@@ -63,7 +63,7 @@ def words(kind, title, field, order):
 
 
 def curveScales(curves):
-  styles = [plots.style(curves, curve) for curve in curves]
+  styles = [panels.style(curves, curve) for curve in curves]
   return (
     alt.Color("curve:N", legend=None, scale=alt.Scale(domain=curves, range=[colour for colour, _ in styles])),
     alt.Shape("curve:N", legend=None, scale=alt.Scale(domain=curves, range=[shape for _, shape in styles])),
@@ -73,10 +73,10 @@ def curveScales(curves):
 def breakOf(plot, spans):
   """The strip for errors of 0, and the break above it."""
   return [
-    alt.Chart(data([{"low": spans["y"][0], "high": plot.zero * plots.kBreak}]))
+    alt.Chart(data([{"low": spans["y"][0], "high": plot.zero * panels.kBreak}]))
     .mark_rect(color="#f3f1ea")
     .encode(y=alt.Y("low:Q"), y2="high"),
-    alt.Chart(data([{"y": plot.zero * plots.kBreak}]))
+    alt.Chart(data([{"y": plot.zero * panels.kBreak}]))
     .mark_rule(color=kFaint, strokeDash=[2, 3])
     .encode(y=alt.Y("y:Q")),
   ]
@@ -109,7 +109,7 @@ def precision(plot, panel, spans):
   if plot.kind == "strip":
     y = words(alt.Y, None, "y", plot.rows)
   else:
-    y = axis(alt.Y, plot.y, "y", spans["y"], *plots.errorTicks(spans["y"], plot.zero), True)
+    y = axis(alt.Y, plot.y, "y", spans["y"], *panels.errorTicks(spans["y"], plot.zero), True)
   layers = []
   if plot.zero:
     layers += breakOf(plot, spans)
@@ -143,7 +143,7 @@ def lines(plot, panel, spans):
     x = words(alt.X, plot.x, "x", plot.ticks)
   else:
     x = axis(alt.X, plot.x, "x", spans["x"], plot.ticks, plot.labels, plot.xLog)
-  y = axis(alt.Y, plot.y, "y", spans["y"], *plots.errorTicks(spans["y"], plot.zero), True)
+  y = axis(alt.Y, plot.y, "y", spans["y"], *panels.errorTicks(spans["y"], plot.zero), True)
   offset = {"xOffset": alt.XOffset("curve:N", scale=alt.Scale(domain=plot.curves))} if isWords else {}
   layers = []
   if plot.zero:
@@ -224,7 +224,7 @@ def bars(plot, panel, spans):
     {"bar": bar, "stage": stage, "order": plot.rows.index(stage), "ms": ms, "says": says}
     for bar, stage, ms, says in panel.cells
   ]
-  colours = [plots.kStageColours[index % len(plots.kStageColours)] for index in range(len(plot.rows))]
+  colours = [panels.kStageColours[index % len(panels.kStageColours)] for index in range(len(plot.rows))]
   return (
     alt.Chart(data(rows))
     .mark_bar(stroke="white", strokeWidth=0.5)
@@ -242,7 +242,7 @@ def bars(plot, panel, spans):
 def spec(plot, panel):
   """The panel's Vega-Lite as a dictionary, with the words that a screen reader gets."""
   make = {"precision": precision, "strip": precision, "lines": lines, "heat": heat, "bars": bars}[plot.kind]
-  chart = make(plot, panel, plots.spansOf(plot, panel))
+  chart = make(plot, panel, panels.spansOf(plot, panel))
   number = len(panel.points) or len(panel.cells)
   about = (
     f"{plot.title}{': ' + panel.title if panel.title else ''}. {number} marks; the table of all rows has the numbers."

@@ -13,7 +13,7 @@ from matplotlib import colors, pyplot
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-import plots as plots_
+import panels as panels_
 import scales
 
 kColumn, kGap = 3.35, 0.2  # inches: a column of a two-column page, and the space between two
@@ -67,15 +67,15 @@ def words(axis, order):
 
 
 def breakOf(axes, plot, spans):
-  axes.axhspan(spans["y"][0], plot.zero * plots_.kBreak, color="#f3f1ea", zorder=0.5, linewidth=0)
-  axes.axhline(plot.zero * plots_.kBreak, color="#8a8a8a", linewidth=0.7, dashes=(2, 2))
+  axes.axhspan(spans["y"][0], plot.zero * panels_.kBreak, color="#f3f1ea", zorder=0.5, linewidth=0)
+  axes.axhline(plot.zero * panels_.kBreak, color="#8a8a8a", linewidth=0.7, dashes=(2, 2))
 
 
 def joined(axes, plot, panel):
   for curve, best, points in panel.lines:
     axes.plot(
       *zip(*points),
-      color=plots_.style(plot.curves, curve)[0],
+      color=panels_.style(plot.curves, curve)[0],
       linewidth=1.1 if best else 0.5,
       alpha=1 if best else 0.4,
     )
@@ -90,7 +90,7 @@ def precision(axes, plot, panel, spans):
     words(axes.yaxis, plot.rows)
     axes.set_ylim(len(plot.rows) - 0.5, -0.5)
   else:
-    numbers(axes.yaxis, spans["y"], *plots_.errorTicks(spans["y"], plot.zero), True)
+    numbers(axes.yaxis, spans["y"], *panels_.errorTicks(spans["y"], plot.zero), True)
   if plot.zero:
     breakOf(axes, plot, spans)
   if panel.band:
@@ -99,7 +99,7 @@ def precision(axes, plot, panel, spans):
   if len(panel.front) > 1:
     axes.step(*zip(*panel.front), where="post", color="#8a8a8a", linewidth=0.8)
   for point in panel.points:
-    colour, shape = plots_.style(plot.curves, point.curve)
+    colour, shape = panels_.style(plot.curves, point.curve)
     axes.plot([point.low, point.high], [place(point.y)] * 2, color=colour, alpha=0.6, linewidth=0.7)
     axes.plot([point.x], [place(point.y)], color=colour, marker=kMarkers[shape], markeredgewidth=0)
 
@@ -113,7 +113,7 @@ def lines(axes, plot, panel, spans):
       axes.tick_params(axis="x", labelrotation=30)
   else:
     numbers(axes.xaxis, spans["x"], plot.ticks, plot.labels, plot.xLog)
-  numbers(axes.yaxis, spans["y"], *plots_.errorTicks(spans["y"], plot.zero), True)
+  numbers(axes.yaxis, spans["y"], *panels_.errorTicks(spans["y"], plot.zero), True)
   # Curves stand side by side on an axis of words, as points there are not joined.
   shift = lambda curve: 0.7 * ((plot.curves.index(curve) + 0.5) / len(plot.curves) - 0.5)
   place = lambda x, curve: plot.ticks.index(x) + shift(curve) if isWords else x
@@ -130,9 +130,9 @@ def lines(axes, plot, panel, spans):
       axes.plot([x, x], [low, high], color="#bbbbbb", alpha=0.45, linewidth=9, solid_capstyle="butt")
   joined(axes, plot, panel)
   for curve, y, _ in panel.levels:
-    axes.axhline(y, color=plots_.style(plot.curves, curve)[0], linewidth=0.9, dashes=(4, 2))
+    axes.axhline(y, color=panels_.style(plot.curves, curve)[0], linewidth=0.9, dashes=(4, 2))
   for point in panel.points:
-    colour, shape = plots_.style(plot.curves, point.curve)
+    colour, shape = panels_.style(plot.curves, point.curve)
     x = place(point.x, point.curve)
     axes.plot([x, x], [point.low, point.high], color=colour, alpha=0.6, linewidth=0.7)
     axes.plot([x], [point.y], color=colour, marker=kMarkers[shape], markeredgewidth=0)
@@ -181,7 +181,7 @@ def bars(axes, plot, panel, spans):
         ms,
         left=left[bar],
         height=0.8,
-        color=plots_.kStageColours[index % len(plots_.kStageColours)],
+        color=panels_.kStageColours[index % len(panels_.kStageColours)],
         edgecolor="white",
         linewidth=0.3,
       )
@@ -194,14 +194,14 @@ def bars(axes, plot, panel, spans):
 def legendOf(plot):
   if plot.kind == "bars":
     return [
-      Patch(color=plots_.kStageColours[index % len(plots_.kStageColours)], label=stage)
+      Patch(color=panels_.kStageColours[index % len(panels_.kStageColours)], label=stage)
       for index, stage in enumerate(plot.rows)
     ]
   if plot.kind in ("heat", "strip") or len(plot.curves) < 2:
     return []
   handles = []
   for curve in plot.curves:
-    colour, shape = plots_.style(plot.curves, curve)
+    colour, shape = panels_.style(plot.curves, curve)
     handles.append(
       Line2D(
         [],
@@ -253,7 +253,7 @@ def draw(plot, panels):
         axes.set_axis_off()
         continue
       panel = members[column]
-      make(axes, plot, panel, plots_.spansOf(plot, panel))
+      make(axes, plot, panel, panels_.spansOf(plot, panel))
       axes.set_title(panel.title)
       axes.set_xlabel(plot.x)
       axes.set_ylabel(plot.y if column == 0 else "")

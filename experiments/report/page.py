@@ -9,8 +9,8 @@ import vl_convert
 
 import charts
 from markup import quantity, swatch, table, text
+import panels
 import pictures
-import plots as plots_
 import ratios
 from tables import Tables
 import words
@@ -206,11 +206,11 @@ class Page:
   def legend(self, plot):
     if plot.kind == "bars":
       entries = [
-        (stage, plots_.kStageColours[index % len(plots_.kStageColours)], "square")
+        (stage, panels.kStageColours[index % len(panels.kStageColours)], "square")
         for index, stage in enumerate(plot.rows)
       ]
     elif len(plot.curves) > 1 and plot.kind != "strip":
-      entries = [(curve, *plots_.style(plot.curves, curve)) for curve in plot.curves]
+      entries = [(curve, *panels.style(plot.curves, curve)) for curve in plot.curves]
     else:
       return ""
     return (
@@ -221,11 +221,11 @@ class Page:
 
   def figure(self, plot):
     wide = " wide" if plot.kind in ("bars", "heat", "strip") else ""
-    panels = []
+    parts = []
     for panel in plot.panels:
       self.specs.append(charts.spec(plot, panel))
       title = f"<h4>{escape(panel.title)}</h4>" if panel.title else ""
-      panels.append(
+      parts.append(
         f'<div class="panel">{title}<div class="scroll" tabindex="0" role="group"'
         f' aria-label="{escape(plot.title)}{", " + escape(panel.title) if panel.title else ""}"><div'
         f' class="chart" data-spec="{len(self.specs) - 1}"></div></div></div>'
@@ -237,7 +237,7 @@ class Page:
     )
     return (
       f'<figure id="{escape(plot.name)}"><h3>{escape(plot.title)}</h3>{self.legend(plot)}<div'
-      f' class="panels{wide}">{"".join(panels)}</div>'
+      f' class="panels{wide}">{"".join(parts)}</div>'
       f"<figcaption>{escape(plot.caption)}{' As a file: ' + links + '.' if links else ''}</figcaption></figure>"
     )
 

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import support
 import numpy
+import panels
 import pictures
 import plots
 import ratios
@@ -193,7 +194,7 @@ class Sample(unittest.TestCase):
 
 class Parts(unittest.TestCase):
   def testFront(self):
-    point = lambda x, y: plots.Point(x, y, x, x, "", "")
+    point = lambda x, y: panels.Point(x, y, x, x, "", "")
     self.assertEqual(
       plots.front([point(3, 1), point(1, 5), point(2, 6), point(2, 4), point(4, 1), point(5, 0.5)]),
       [(1, 5), (2, 4), (3, 1), (5, 0.5)],
@@ -209,7 +210,7 @@ class Parts(unittest.TestCase):
   def testTicks(self):
     self.assertEqual(scales.ticks(0.9, 11, True), [1, 2, 5, 10])
     self.assertEqual(scales.ticks(3.1, 3.9, True), [3.2, 3.4, 3.6, 3.8])
-    self.assertEqual(plots.errorTicks((0.05, 30), 0.1), ([0.1, 1, 2, 5, 10, 20], ["0", "1", "2", "5", "10", "20"]))
+    self.assertEqual(panels.errorTicks((0.05, 30), 0.1), ([0.1, 1, 2, 5, 10, 20], ["0", "1", "2", "5", "10", "20"]))
 
   def testNumbers(self):
     self.assertEqual(
