@@ -62,6 +62,9 @@ def main():
 
   plots = plots_.Plots(sweep, arguments.all_devices)
   figure = plots.figure()
+  if figure is None:
+    reasons = [line for line in plots.skipped if line.startswith(f"{sweep.plot.get('figure')}:")]
+    complain(f"{arguments.folder}: no figures/figure.svg: {' '.join(reasons) or 'there is nothing to plot'}", 0)
   report = arguments.folder / "report"
   report.mkdir(exist_ok=True)
   names = writeFigures(report / "figures", plots, figure)

@@ -273,11 +273,14 @@ class Plots:
         panel.points.append(Point(cell.ms, short(cell), low, high, self.curve(cell), self.says(cell)))
       panels.append(panel)
     anyError = any(cell.error("error", self.errorName) is not None for cell in measured)
-    caption = (
-      ("Every image is the oracle's, so only times differ; " if anyError else "Times alone; ")
-      + "bars span their quartiles. "
-      + self.bandWords(panels)
-    )
+    if not anyError:
+      caption = "Times alone; "
+    elif any(cell.mismatches() for cell in measured):
+      what = words.kErrors.get(self.errorName, self.errorName)
+      caption = f"No cell has an error of this kind ({what}), though some have others: the table has them; "
+    else:
+      caption = "Every image is the oracle's, so only times differ; "
+    caption += "bars span their quartiles. " + self.bandWords(panels)
     caption += f" Lines are named by {words.listing(axes)}." if axes else ""
     curves = self.curveOrder(measured)
     self.list.append(

@@ -119,6 +119,15 @@ class Command(unittest.TestCase):
     figures = folder / "report" / "figures"
     self.assertEqual((figures / "figure.svg").read_bytes(), (figures / "ratio-against-tile.svg").read_bytes())
 
+  def testAFigureThatCannotBe(self):
+    """Nothing but a software driver's times: the page is made, and a line says why the experiment's figure is not."""
+    sample.write(self.folder, only(scene="ball", edge=256, device="vulkan"))
+    result = tessera("report", self.folder)
+    self.assertEqual(result.returncode, 0, result.stderr)
+    self.assertRegex(result.stderr, r"^tessera: .*no figures/figure.svg: ratio-against-tile: .*\n$")
+    self.assertFalse((self.folder / "report" / "figures" / "figure.svg").exists())
+    self.assertTrue((self.folder / "report" / "index.html").exists())
+
   def checkExport(self, folder, file):
     rows = [json.loads(line) for line in (folder / "rows.jsonl").read_text().splitlines()]
     isTable = file.suffix == ".duckdb"

@@ -186,6 +186,7 @@ class Sample(unittest.TestCase):
     with tempfile.TemporaryDirectory() as folder:
       made = plots.Plots(support.read(sample.write(Path(folder), exact)), False)
       self.assertEqual(made.list[0].kind, "strip")
+      self.assertIn("Every image is the oracle's", made.list[0].caption)
       self.assertTrue(
         any("no cell has an error" in line and "work-precision" in line for line in made.skipped), made.skipped
       )
