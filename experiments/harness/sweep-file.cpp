@@ -369,7 +369,7 @@ Sweep readSweep(const fs::path& path, bool quick) {
   sweep.path = fs::absolute(path).lexically_normal();
   sweep.text = readFile(path);
   sweep.sha256 = sha256(sweep.text);
-  const fs::path folder = sweep.path.parent_path();
+  const fs::path folder = path.parent_path();  // as it was given: messages, and so rows, name no folder of this machine
   const std::string file = path.string();
   const toml::table root = parseToml(file, sweep.text);
   const TomlTable top(file, root, "a sweep",

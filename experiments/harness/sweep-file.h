@@ -17,7 +17,7 @@ namespace tessera::harness {
 
 struct SweepScene {
   std::string name;   ///< its key in [scenes]
-  std::string input;  ///< as loadInput takes it; a path is relative to the sweep's folder, and made absolute here
+  std::string input;  ///< as loadInput takes it; a path is relative to the working folder
   std::string text;   ///< the input as the file has it, for rows and commands
   AttributeRequest attribute;
   std::optional<double> x;  ///< the number that the scene stands for on plots, e.g. its triangles' area in pixels
@@ -37,7 +37,7 @@ struct Size {
 /// A stage whose kernel varies: "" is the stage's own, others are files as `render --kernel` takes them.
 struct SweptKernel {
   std::string stage;
-  std::vector<std::filesystem::path> files;  ///< absolute
+  std::vector<std::filesystem::path> files;  ///< relative to the working folder
   std::vector<std::string> texts;            ///< as the file has them
 };
 
