@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Runs experiments, or those named, into out/experiments: sweep, what must hold, report. With --quick small ones into out/experiments-quick,
-# whose times mean nothing. With --keep the rows and the figure become the experiment's own. One that was stopped goes on.
+# whose times mean nothing. With --keep the rows and the figure become the experiment's own. One that was stopped goes on; one that is done is reported
+# again, and measured again once its folder is gone.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 

@@ -112,7 +112,10 @@ def lines(axes, plot, panel, spans):
     if max(map(len, plot.labels)) * len(plot.labels) > 44:
       axes.tick_params(axis="x", labelrotation=30)
   else:
-    numbers(axes.xaxis, spans["x"], plot.ticks, plot.labels, plot.xLog)
+    crowded = sum(map(len, plot.labels)) > 36  # then round numbers, not the values themselves
+    ticks = scales.ticks(*spans["x"], plot.xLog) if crowded else plot.ticks
+    texts = [scales.text(tick) for tick in ticks] if crowded else plot.labels
+    numbers(axes.xaxis, spans["x"], ticks, texts, plot.xLog)
   numbers(axes.yaxis, spans["y"], *panels_.errorTicks(spans["y"], plot.zero), True)
   # Curves stand side by side on an axis of words, as points there are not joined.
   shift = lambda curve: 0.7 * ((plot.curves.index(curve) + 0.5) / len(plot.curves) - 0.5)
