@@ -7,7 +7,7 @@ from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 import report  # noqa: F401, where the next three lie
 import figures
-import plots
+import panels as panels_
 import scales
 
 kInch = 2.54
@@ -23,7 +23,7 @@ def curve(axes, names, name, points, errors=True, **options):
   """Points (x, y, low, high) of one of `names`, whose place gives colour and shape."""
   if not points:
     return
-  colour, shape = plots.style(names, name)
+  colour, shape = panels_.style(names, name)
   x, y, low, high = zip(*points)
   axes.plot(x, y, color=colour, marker=figures.kMarkers[shape], label=name, zorder=3, **options)
   if errors:
@@ -130,7 +130,7 @@ def capacity(path, sweep, places):
     level = next((cell.ratio.median for cell in group.candidates if cell.values["binning"] == "bitmask"), None)
     if level:
       heights.append(level)
-      times.axhline(level, color=plots.style(names, "bitmask")[0], linestyle=":", label="bitmask", zorder=2)
+      times.axhline(level, color=panels_.style(names, "bitmask")[0], linestyle=":", label="bitmask", zorder=2)
     points = [(line["capacity"]["value"], line["wrong"]["value"], line["wrong"]["least"]["value"], line["wrong"]["most"]["value"])
               for line in place["lines"] if line["wrong"]]
     losses += [point[1] for point in points if point[1] > 0]
