@@ -13,6 +13,7 @@ die() { say "$*"; exit 2; }
 root=${TESSERA_OUT:-../out}
 quick=() out=$root/experiments keep=false names=()
 for argument; do
+  argument=${argument%/}
   case $argument in
     --quick) quick=(--quick) out=$root/experiments-quick ;;
     --keep) keep=true ;;
@@ -35,12 +36,18 @@ for name in "${names[@]}"; do
   resume=()
   [[ ! -f $folder/journal.jsonl ]] || resume=(--resume)
   say "$name"
-  "$tessera" sweep "$name/sweep.toml" --out "$folder" "${quick[@]}" "${resume[@]}" >"$folder.txt" || { cat "$folder.txt"; failed+=("$name"); continue; }
-  "$python" report/expect.py "$folder" || failed+=("$name")
-  "$tessera" report "$folder"
+  code=0
+  "$tessera" sweep "$name/sweep.toml" --out "$folder" "${quick[@]}" "${resume[@]}" >"$folder.txt" || code=$?
+  ((code != 130)) || exit 130  # Ctrl-C stops them all
+  ((code == 0)) || { cat "$folder.txt"; failed+=("$name"); continue; }
+  "$python" report/expect.py "$folder" || code=$?
+  "$tessera" report "$folder" || code=$?
+  ((code == 0)) || { failed+=("$name"); continue; }
   if $keep; then
-    cp "$folder/rows.jsonl" "$name/results.jsonl"
-    cp "$folder/report/figures/figure.svg" "$name/figure.svg"
+    [[ -f $folder/report/figures/figure.svg ]] || die "$name: its rows give no figure.svg; [plot] in its sweep.toml chooses it"
+    for pair in rows.jsonl:results.jsonl report/figures/figure.svg:figure.svg; do
+      cp "$folder/${pair%:*}" "$name/${pair#*:}.tmp" && mv "$name/${pair#*:}.tmp" "$name/${pair#*:}"
+    done
   fi
 done
 ((${#failed[@]} == 0)) || { say "failed: ${failed[*]}"; exit 5; }

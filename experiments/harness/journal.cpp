@@ -95,9 +95,15 @@ void Journal::create(const fs::path& folder, const Json& head) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) failUsage(fmt::format("{}: the folder cannot be made: {}", folder.string(), error.message()));
-  if (!writeBeside(journalOf(folder), lineOf(head)))
-    fail(fmt::format("{}: could not be written; a folder that can be written, with room in it, would do",
-                     journalOf(folder).string()));
+  const fs::path journal = journalOf(folder), half = folder / uniqueName(journal.filename().string());
+  int failure = writeBeside(half, lineOf(head)) ? 0 : EIO;
+  // A sweep that was begun here in the meantime keeps its journal.
+  if (failure == 0 && renameat2(AT_FDCWD, half.c_str(), AT_FDCWD, journal.c_str(), RENAME_NOREPLACE) != 0) failure = errno;
+  if (failure == 0) return;
+  fs::remove(half, error);
+  if (failure == EEXIST)
+    failUsage(fmt::format("{}: another sweep has begun there meanwhile; another folder begins anew", folder.string()));
+  fail(fmt::format("{}: could not be written; a folder that can be written, with room in it, would do", journal.string()));
 }
 
 Journal::Journal(const fs::path& folder) : path_(journalOf(folder)) {
@@ -118,6 +124,9 @@ Journal::~Journal() {
 }
 
 void Journal::cut(std::size_t bytes) {
+  if (readJournal(path_.parent_path()).bytes != bytes)
+    failUsage(fmt::format("{}: another sweep has written to it meanwhile; --resume once more goes on from there",
+                          path_.string()));
   if (bytes == bytes_) return;
   if (ftruncate(file_, static_cast<off_t>(bytes)) != 0) failed(errno);
   bytes_ = bytes;

@@ -1,17 +1,14 @@
 // journal.jsonl, the one record of a sweep: a line for its head, each session, each cell that was checked or ended,
 // each sample. Rows are made of it and of nothing else.
 //
-//   head     schema_version, sweep {title, question, sha256}, rounds, repeats, warm_up, time_limit, seed, jobs (names),
-//   and
-//            cells: cell, name, job, command and `sweep` as rows have them
+//   head     schema_version, sweep {title, question, sha256}, quick, rounds, repeats, warm_up, time_limit, seed, jobs
+//            (names), cells: cell, name, command and `sweep` as rows have them
 //   session  session (0, or how often the sweep had been resumed), utc, load (averages over 1, 5, 15 minutes), jobs:
-//   the
-//            provenance of each that had something left to do
+//            the provenance of each that had something left to do
 //   cell     cell, session, frame_s (seconds of a frame), row: as the check left it
 //   end      cell, session, status, message: what ended a cell after its check
 //   sample   cell, round, repeat, session, total_ns, stages, error (of variants that differ from run to run), again:
-//   true
-//            where the cell had a sample of this round already
+//            true where the cell had a sample of this round already
 #pragma once
 
 #include <chrono>
@@ -52,14 +49,15 @@ Record readJournal(const std::filesystem::path& folder);
 /// The journal, open for more lines. One process at a time holds it.
 class Journal {
  public:
-  /// A new one of one line, written beside and renamed: a journal has its head or is not there.
+  /// A new one of one line, written beside and renamed: a journal has its head or is not there. Throws kUsage where
+  /// there is one by now.
   static void create(const std::filesystem::path& folder, const Json& head);
   /// Throws kUsage when another sweep writes to it. Nothing is changed yet.
   explicit Journal(const std::filesystem::path& folder);
   ~Journal();
   Journal(const Journal&) = delete;
 
-  /// Cuts off what is behind the whole lines.
+  /// Cuts off what is behind the whole lines, which have `bytes`. Throws kUsage where another sweep has added to them.
   void cut(std::size_t bytes);
   /// One write. Throws kFailure when it does not fit, and leaves whole lines behind.
   void append(const Json& line);

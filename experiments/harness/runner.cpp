@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <memory>
 
+#include "datasets/text.h"
 #include "experiments/harness/cells.h"
 #include "experiments/harness/folder.h"
 #include "experiments/harness/journal.h"
@@ -201,19 +202,26 @@ class Runner {
     planned_[number] = row;
     if (!begun_) return;
     const Json& before = begun_->cells.at(number).row;
-    if (before.is_null() || !before.contains("scene")) return;
+    if (before.is_null() || !before["scene"].contains("sha256")) return;  // it ended before its scene was read
     const std::string name = cellName(sweep_, cells_[number]);
-    if (before["scene"]["sha256"] != row["scene"]["sha256"])
+    if (before["scene"].value("sha256", Json()) != row["scene"]["sha256"])
       failUsage(
           fmt::format("{}: its scene is not what it was when this sweep began; the scene as it was resumes it, "
                       "another folder begins anew",
                       name));
-    for (const char* const part : {"device", "cpu", "os"})
-      if (before["provenance"][part] != row["provenance"][part])
+    const auto part = [](const Json& of, const char* which) { return of.at("provenance").value(which, Json()).dump(); };
+    for (const char* const which : {"device", "driver", "threads", "cpu", "os", "git", "compiler", "kernel_compiler", "slang"})
+      if (part(before, which) != part(row, which))
         failUsage(
-            fmt::format("{}: this sweep began on another machine, where {} was {}, not {}; that one resumes it, "
+            fmt::format("{}: this sweep began on another machine or build, where {} was {}, not {}; that one resumes it, "
                         "another folder begins anew",
-                        name, part, before["provenance"][part].dump(), row["provenance"][part].dump()));
+                        name, which, part(before, which), part(row, which)));
+    for (const auto& [stage, file] : cells_[number].kernels)
+      if (const Json files = before.value("kernel_files", Json::object());
+          files.contains(stage) && files[stage]["sha256"] != sha256(readFile(file)))
+        failUsage(fmt::format("{}: {} is not what it was when this sweep began; as it was it resumes it, another folder "
+                              "begins anew",
+                              name, file.string()));
   }
 
   /// Inputs are read, devices opened and kernels compiled before anything is written: what is wrong with them is said
@@ -280,6 +288,8 @@ class Runner {
       run.truth = sweep_.truth;
       run.seed = sweep_.seed;
       row = Json::parse(rowText(run));
+      const Cell& cell = cells_[number];
+      row["scene"] = {{"name", sweep_.scenes[cell.scene].name}, {"size", {cell.size.width, cell.size.height}}};
     }
     row["status"] = status;
     row["message"] = message;
@@ -304,6 +314,7 @@ class Runner {
         stopWorker();
       } else {
         record(number, message->at("row"), message->at("frame_s"));
+        if (message->at("row").at("status") == "error") stopWorker();  // a device that failed is not for the next cell
       }
       ++checks_;
       checkS_ += secondsSince(begin);

@@ -26,14 +26,23 @@ double medianTime(const CellRecord& cell) {
   return totalSpread(times).median;
 }
 
-/// Median over the rounds of time over the reference's time in the same round; each repeat with the same one.
+/// Session and round -> median time of the turn, those that were taken again among them.
+std::map<std::pair<unsigned, unsigned>, double> turnsOf(const CellRecord& cell) {
+  std::map<std::pair<unsigned, unsigned>, std::vector<double>> times;
+  for (const auto* samples : {&cell.samples, &cell.again})
+    for (const Sample& s : *samples) times[{s.session, s.round}].push_back(static_cast<double>(s.times.totalNs));
+  std::map<std::pair<unsigned, unsigned>, double> medians;
+  for (auto& [turn, values] : times) medians[turn] = medianOf(std::move(values));
+  return medians;
+}
+
+/// As the report has it: median over the rounds of time over the reference's in the same session and round.
 double ratio(const CellRecord& cell, const CellRecord& reference) {
-  std::map<std::pair<unsigned, unsigned>, double> base;
-  for (const Sample& s : reference.samples) base[{s.round, s.repeat}] = static_cast<double>(s.times.totalNs);
+  const auto base = turnsOf(reference);
   std::vector<double> ratios;
-  for (const Sample& s : cell.samples)
-    if (const auto found = base.find({s.round, s.repeat}); found != base.end() && found->second > 0)
-      ratios.push_back(static_cast<double>(s.times.totalNs) / found->second);
+  for (const auto& [turn, time] : turnsOf(cell))
+    if (const auto found = base.find(turn); found != base.end() && found->second > 0)
+      ratios.push_back(time / found->second);
   return medianOf(std::move(ratios));
 }
 

@@ -27,13 +27,6 @@ namespace fs = std::filesystem;
 constexpr std::size_t kMaxCells = 100'000;
 constexpr std::int64_t kMaxRounds = 1000, kMaxFrames = 1000, kMaxThreads = 4096;
 
-std::string sha256(std::string_view text) {
-  std::array<unsigned char, 32> digest{};
-  if (EVP_Digest(text.data(), text.size(), digest.data(), nullptr, EVP_sha256(), nullptr) != 1)
-    fail("SHA-256: libcrypto failed");
-  return fmt::format("{:02x}", fmt::join(digest, ""));
-}
-
 /// The table at `key`, of which the file chooses the keys; empty where there is none.
 TomlTable section(const TomlTable& top, std::string_view key) {
   static const toml::table kNone;
@@ -363,6 +356,13 @@ void readQuick(const TomlTable& top, Sweep& sweep, bool quick) {
 }
 
 }  // namespace
+
+std::string sha256(std::string_view text) {
+  std::array<unsigned char, 32> digest{};
+  if (EVP_Digest(text.data(), text.size(), digest.data(), nullptr, EVP_sha256(), nullptr) != 1)
+    fail("SHA-256: libcrypto failed");
+  return fmt::format("{:02x}", fmt::join(digest, ""));
+}
 
 Sweep readSweep(const fs::path& path, bool quick) {
   Sweep sweep;

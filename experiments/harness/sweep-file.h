@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -70,6 +71,9 @@ struct Sweep {
   double timeLimitS = 60;     ///< a frame that takes longer ends its cell: status timeout
   bool quick = false;         ///< [quick] has taken the place of scenes, sizes, rounds and repeats
 };
+
+/// In hexadecimal digits.
+std::string sha256(std::string_view text);
 
 /// Throws kUsage with "file:line:column: key: what is wrong; what would be right". Checks every key (those of [plot]
 /// and

@@ -1,4 +1,4 @@
-"""Whether the rows of a sweep have what its [[expect]] says: python expect.py DIR. One line a failure; exit code 5 if there is one."""
+"""Whether the rows of a sweep have what its [[expect]] says: python expect.py DIR. One line a failure, and then exit code 5."""
 import json
 import operator
 from pathlib import Path
@@ -29,9 +29,10 @@ def chosen(rows, expectation):
 
 
 def failures(row, expectation):
-  """What a row has not. Of a cell that gave no image only the status counts."""
-  if "status" in expectation and row["status"] not in asList(expectation["status"]):
-    yield f"status is {row['status']}, not {' or '.join(asList(expectation['status']))}: {row.get('message', '')}"
+  """What a row has not: `ok` where no status is named. Of a cell that gave no image only the status counts."""
+  wanted = asList(expectation.get("status", "ok"))
+  if row["status"] not in wanted:
+    yield f"status is {row['status']}, not {' or '.join(wanted)}: {row.get('message', '')}"
   elif row["status"] == "ok":
     for table in kMeasured:
       for name, wanted in expectation.get(table, {}).items():

@@ -276,7 +276,8 @@ def valuesOf(cell, allDevices):
   if threads:
     values["threads"] = str(threads)
   if sweep.get("x") is not None:
-    values["x"] = f"{sweep['x']:g}"
+    short = f"{sweep['x']:g}"
+    values["x"] = short if float(short) == sweep["x"] else repr(sweep["x"])
   return values
 
 
