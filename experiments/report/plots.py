@@ -566,9 +566,10 @@ class Plots:
       if not members:
         continue
       values = group.values
+      axes = [axis for axis in self.sweep.swept if any(axis in cell.values for cell in members)]
       panel = Panel(", ".join(words.place(name, values[name]) for name in places if name in values))
       for cell in members:
-        bar = ", ".join(cell.values.get(axis, "\u2013") for axis in self.sweep.swept) or "the only cell"
+        bar = ", ".join(cell.values.get(axis, "\u2013") for axis in axes) or "the only cell"
         for stage, ns in cell.row["time_ns"]["stages"].items():
           panel.cells.append((bar, stage, ns / 1e6, f"{bar}: {stage} {words.significant(ns / 1e6)} ms"))
       panels.append(panel)
