@@ -12,7 +12,8 @@ namespace fs = std::filesystem;
 /// As writeBeside() names them.
 bool isHalfFile(const fs::path& path) {
   const std::string name = path.filename().string();
-  return name.ends_with(".tmp") && (name.starts_with("journal.jsonl.") || name.starts_with("rows.jsonl.") || name.starts_with("sweep.toml."));
+  return name.ends_with(".tmp") &&
+         (name.starts_with("journal.jsonl.") || name.starts_with("rows.jsonl.") || name.starts_with("sweep.toml."));
 }
 
 }  // namespace

@@ -98,12 +98,14 @@ void Journal::create(const fs::path& folder, const Json& head) {
   const fs::path journal = journalOf(folder), half = folder / uniqueName(journal.filename().string());
   int failure = writeBeside(half, lineOf(head)) ? 0 : EIO;
   // A sweep that was begun here in the meantime keeps its journal.
-  if (failure == 0 && renameat2(AT_FDCWD, half.c_str(), AT_FDCWD, journal.c_str(), RENAME_NOREPLACE) != 0) failure = errno;
+  if (failure == 0 && renameat2(AT_FDCWD, half.c_str(), AT_FDCWD, journal.c_str(), RENAME_NOREPLACE) != 0)
+    failure = errno;
   if (failure == 0) return;
   fs::remove(half, error);
   if (failure == EEXIST)
     failUsage(fmt::format("{}: another sweep has begun there meanwhile; another folder begins anew", folder.string()));
-  fail(fmt::format("{}: could not be written; a folder that can be written, with room in it, would do", journal.string()));
+  fail(fmt::format("{}: could not be written; a folder that can be written, with room in it, would do",
+                   journal.string()));
 }
 
 Journal::Journal(const fs::path& folder) : path_(journalOf(folder)) {

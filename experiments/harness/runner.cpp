@@ -210,18 +210,20 @@ class Runner {
                       "another folder begins anew",
                       name));
     const auto part = [](const Json& of, const char* which) { return of.at("provenance").value(which, Json()).dump(); };
-    for (const char* const which : {"device", "driver", "threads", "cpu", "os", "git", "compiler", "kernel_compiler", "slang"})
+    for (const char* const which :
+         {"device", "driver", "threads", "cpu", "os", "git", "compiler", "kernel_compiler", "slang"})
       if (part(before, which) != part(row, which))
-        failUsage(
-            fmt::format("{}: this sweep began on another machine or build, where {} was {}, not {}; that one resumes it, "
-                        "another folder begins anew",
-                        name, which, part(before, which), part(row, which)));
+        failUsage(fmt::format(
+            "{}: this sweep began on another machine or build, where {} was {}, not {}; that one resumes it, "
+            "another folder begins anew",
+            name, which, part(before, which), part(row, which)));
     for (const auto& [stage, file] : cells_[number].kernels)
       if (const Json files = before.value("kernel_files", Json::object());
           files.contains(stage) && files[stage]["sha256"] != sha256(readFile(file)))
-        failUsage(fmt::format("{}: {} is not what it was when this sweep began; as it was it resumes it, another folder "
-                              "begins anew",
-                              name, file.string()));
+        failUsage(
+            fmt::format("{}: {} is not what it was when this sweep began; as it was it resumes it, another folder "
+                        "begins anew",
+                        name, file.string()));
   }
 
   /// Inputs are read, devices opened and kernels compiled before anything is written: what is wrong with them is said

@@ -197,7 +197,8 @@ class Worker {
 
 int serveWorker() {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
-  for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, SIG_IGN);  // they reach the whole group: the parent decides
+  for (const int signal : {SIGINT, SIGTERM})
+    std::signal(signal, SIG_IGN);                            // they reach the whole group: the parent decides
   const int out = fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 3);  // a compiler that outlives this process must not hold it
   dup2(STDERR_FILENO, STDOUT_FILENO);                        // a driver's chatter is no message
   const auto failed = [&](ExitCode code, const std::string& message) {

@@ -101,24 +101,29 @@ def joined(panel, x, y, colour):
   return layers
 
 
+def pointsOf(panel):
+  return [{"x": p.x, "y": p.y, "low": p.low, "high": p.high, "curve": p.curve, "says": p.says} for p in panel.points]
+
+
+def behind(plot, panel, spans, **along):
+  """What lies behind all marks: the strip of errors of 0, and the A/A band along the axis of times."""
+  layers = breakOf(plot, spans) if plot.zero else []
+  if panel.band:
+    band = alt.Chart(data([{"low": panel.band[0], "high": panel.band[1]}]))
+    layers.append(band.mark_rect(color="#bbbbbb", opacity=0.45).encode(**along))
+  return layers
+
+
 def precision(plot, panel, spans):
   colour, shape = curveScales(plot.curves)
-  rows = [{"x": p.x, "y": p.y, "low": p.low, "high": p.high, "curve": p.curve, "says": p.says} for p in panel.points]
+  rows = pointsOf(panel)
   ticksX = scales.ticks(*spans["x"], True)
   x = axis(alt.X, plot.x, "x", spans["x"], ticksX, [scales.text(tick) for tick in ticksX], True)
   if plot.kind == "strip":
     y = words(alt.Y, None, "y", plot.rows)
   else:
     y = axis(alt.Y, plot.y, "y", spans["y"], *panels.errorTicks(spans["y"], plot.zero), True)
-  layers = []
-  if plot.zero:
-    layers += breakOf(plot, spans)
-  if panel.band:
-    layers.append(
-      alt.Chart(data([{"low": panel.band[0], "high": panel.band[1]}]))
-      .mark_rect(color="#bbbbbb", opacity=0.45)
-      .encode(x=alt.X("low:Q"), x2="high")
-    )
+  layers = behind(plot, panel, spans, x=alt.X("low:Q"), x2="high")
   layers += joined(panel, x, y, colour)
   if len(panel.front) > 1:
     layers.append(
@@ -138,22 +143,14 @@ def precision(plot, panel, spans):
 def lines(plot, panel, spans):
   colour, shape = curveScales(plot.curves)
   isWords = isinstance(plot.ticks[0], str)
-  rows = [{"x": p.x, "y": p.y, "low": p.low, "high": p.high, "curve": p.curve, "says": p.says} for p in panel.points]
+  rows = pointsOf(panel)
   if isWords:
     x = words(alt.X, plot.x, "x", plot.ticks)
   else:
     x = axis(alt.X, plot.x, "x", spans["x"], plot.ticks, plot.labels, plot.xLog)
   y = axis(alt.Y, plot.y, "y", spans["y"], *panels.errorTicks(spans["y"], plot.zero), True)
   offset = {"xOffset": alt.XOffset("curve:N", scale=alt.Scale(domain=plot.curves))} if isWords else {}
-  layers = []
-  if plot.zero:
-    layers += breakOf(plot, spans)
-  if panel.band:
-    layers.append(
-      alt.Chart(data([{"low": panel.band[0], "high": panel.band[1]}]))
-      .mark_rect(color="#bbbbbb", opacity=0.45)
-      .encode(y=alt.Y("low:Q"), y2="high")
-    )
+  layers = behind(plot, panel, spans, y=alt.Y("low:Q"), y2="high")
   if panel.bands:
     bands = alt.Chart(data([{"x": bx, "low": low, "high": high} for bx, low, high in panel.bands]))
     bands = (
