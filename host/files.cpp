@@ -4,9 +4,12 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <cstdlib>
 #include <fstream>
+#include <system_error>
 
 #include "host/error.h"
+#include "host/temporary.h"
 
 namespace tessera {
 
@@ -32,15 +35,26 @@ bool writeBeside(const fs::path& path, std::string_view text) {
   return true;
 }
 
-TemporaryFolder::TemporaryFolder(const fs::path& parent, std::string_view stem) : path_(parent / uniqueName(stem)) {
+fs::path temporaryRoot() {
+  const char* const named = std::getenv("TMPDIR");
+  const fs::path root = named != nullptr && *named != '\0' ? named : "/tmp";
   std::error_code error;
-  fs::create_directories(path_, error);
-  if (error) fail(fmt::format("{}: cannot be made: {}", path_.string(), error.message()));
+  if (!fs::is_directory(root, error))
+    fail(fmt::format("TMPDIR={}: {}; a folder with room in it would do", root.string(),
+                     error ? error.message() : "is not a folder"));
+  return root;
 }
 
-TemporaryFolder::~TemporaryFolder() {
-  std::error_code ignored;
-  fs::remove_all(path_, ignored);
+TemporaryFolder::TemporaryFolder(const fs::path& parent, std::string_view stem) try {
+  fs::create_directories(parent);
+  clearTemporaries(parent, stem);
+  folder_ = std::make_unique<Temporary>(parent, stem, Temporary::kFolder);
+} catch (const std::system_error& error) {
+  fail(fmt::format("{}: no temporary folder can be made in it: {}", parent.string(), error.code().message()));
 }
+
+TemporaryFolder::~TemporaryFolder() = default;
+
+const fs::path& TemporaryFolder::path() const { return folder_->path(); }
 
 }  // namespace tessera

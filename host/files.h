@@ -1,9 +1,13 @@
 // Files that appear whole or not at all.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace tessera {
 
@@ -13,16 +17,64 @@ std::string uniqueName(std::string_view stem);
 /// Writes `path` beside its name and renames it. False if that cannot be done; nothing is left behind then.
 bool writeBeside(const std::filesystem::path& path, std::string_view text);
 
-/// A new folder, removed with all that is in it at the end. Throws kFailure if it cannot be made.
+/// An output that appears whole or not at all. A file, through symbolic links the one that they lead to, is written
+/// beside and renamed; it keeps its mode. A device, a pipe, /dev/fd/N or "-" (stdout) is written to, from a file in the
+/// temporary folder. Made before the work and kept: where nothing can be written, that is said before.
+class OutputFile {
+ public:
+  /// Throws kUsage if nothing can be written there. A pipe has ten seconds to find its reader.
+  explicit OutputFile(const std::filesystem::path& target);
+  ~OutputFile();  ///< without commit() nothing has changed
+  OutputFile(OutputFile&&) noexcept;
+  const std::filesystem::path& target() const;  ///< as it was given, for messages
+  /// The temporary file to write into, made by the first call.
+  const std::filesystem::path& path();
+  /// Checks that the temporary file has these bytes (unless said, any number but none), syncs it, and renames or copies
+  /// it. Throws kFailure with name and cause; what was there is still there then.
+  void commit(std::optional<std::uintmax_t> bytes = {});
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// An output whose bytes are text.
+void writeWhole(const std::filesystem::path& target, std::string_view text);
+
+/// A file that lines are added to; a new one where there is none. Devices, pipes and "-" as for OutputFile.
+class AppendedFile {
+ public:
+  /// Throws kUsage if nothing can be written there. It makes no file yet.
+  explicit AppendedFile(const std::filesystem::path& target);
+  ~AppendedFile();
+  AppendedFile(AppendedFile&&) noexcept;
+  /// By one write at the file's end. One that falls short is truncated away: kFailure with name and cause.
+  void append(std::string_view lines);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+void appendLine(const std::filesystem::path& target, std::string_view line);
+
+/// Throws kUsage where two outputs are one file, under whatever names, or an output is an input. Devices may be named
+/// twice.
+void checkApart(const std::vector<std::filesystem::path>& outputs, const std::vector<std::filesystem::path>& inputs);
+
+/// A new folder, removed with all that is in it at the end. Throws kFailure with folder and cause if it cannot be made.
 class TemporaryFolder {
  public:
   TemporaryFolder(const std::filesystem::path& parent, std::string_view stem);
   ~TemporaryFolder();
   TemporaryFolder(const TemporaryFolder&) = delete;
-  const std::filesystem::path& path() const { return path_; }
+  const std::filesystem::path& path() const;
 
  private:
-  std::filesystem::path path_;
+  std::unique_ptr<class Temporary> folder_;
 };
+
+/// $TMPDIR or /tmp. Throws kFailure, with the name and what would do, if it is no folder.
+std::filesystem::path temporaryRoot();
 
 }  // namespace tessera

@@ -1,0 +1,35 @@
+// Where an output's bytes go: what its name leads to.
+#pragma once
+
+#include <sys/stat.h>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace tessera {
+
+/// What a name leads to through symbolic links. Made, it has passed every check that needs no writing.
+struct OutputPlace {
+  std::filesystem::path name;  ///< as it was given, for messages
+  std::filesystem::path file;  ///< where its links end; nothing for a descriptor
+  int descriptor = -1;         ///< "-", /dev/stdout, /dev/fd/N, /proc/self/fd/N: this process's, already open
+  std::optional<struct stat> there;  ///< what is there now
+
+  /// A file, there already or not yet: written beside and renamed. Else bytes are written to what is there.
+  bool isFile() const { return descriptor < 0 && (!there || S_ISREG(there->st_mode)); }
+};
+
+/// Throws kUsage, in one line with the cause, where nothing can be written.
+OutputPlace outputPlace(const std::filesystem::path& target);
+
+/// Opens a device, pipe or descriptor to write to. A pipe has ten seconds to find its reader. Throws kUsage.
+int openStream(const OutputPlace& place);
+
+/// Throws kFailure, with the name and the cause, unless all is written.
+void writeAll(int descriptor, std::string_view bytes, const std::filesystem::path& name);
+
+std::string causeOf(int error);
+
+}  // namespace tessera

@@ -1,0 +1,57 @@
+// Lines are added whole.
+#include <catch2/catch.hpp>
+#include <string>
+#include <thread>
+
+#include "tests/support/error-line.h"
+#include "fixture.h"
+
+namespace tessera::test {
+namespace fs = std::filesystem;
+
+TEST_CASE("Lines are added at the end and a new file is made") {
+  const Folder folder;
+  AppendedFile file(folder / "a");
+  CHECK(folder.names().empty());
+  file.append("one");
+  file.append("two\nthree\n");
+  CHECK(folder.read("a") == "one\ntwo\nthree\n");
+  folder.write("half", "{\"cut");
+  appendLine(folder / "half", "whole");
+  CHECK(folder.read("half") == "{\"cut\nwhole\n");
+  fs::create_symlink("a", folder / "link");
+  fs::create_hard_link(folder / "a", folder / "hard");
+  appendLine(folder / "link", "four");
+  CHECK(folder.read("hard") == "one\ntwo\nthree\nfour\n");
+  CHECK(fs::is_symlink(folder / "link"));
+}
+
+TEST_CASE("A line that does not fit leaves the lines before it") {
+  const Folder folder;
+  appendLine(folder / "a", "good");
+  const std::string large(5000, 'x');
+  {
+    const FileLimit limit(1000);
+    const std::string line = lineOf(ExitCode::kFailure, [&] { appendLine(folder / "a", large); });
+    CHECK(contains(line, "/a: could not be written: "));
+    lineOf(ExitCode::kFailure, [&] { appendLine(folder / "new", large); });
+  }
+  CHECK(folder.read("a") == "good\n");
+  CHECK(folder.names() == std::vector<std::string>{"a"});
+}
+
+TEST_CASE("Lines of many writers do not mix") {
+  const Folder folder;
+  std::vector<std::thread> writers;
+  for (const char letter : {'a', 'b', 'c', 'd'})
+    writers.emplace_back([&folder, letter] {
+      for (int i = 0; i < 20; ++i) appendLine(folder / "rows", std::string(3000, letter));
+    });
+  for (std::thread& writer : writers) writer.join();
+  const std::string text = folder.read("rows");
+  CHECK(text.size() == 4 * 20 * 3001);
+  for (std::size_t begin = 0; begin < text.size(); begin += 3001)
+    CHECK(text.substr(begin, 3001) == std::string(3000, text[begin]) + '\n');
+}
+
+}  // namespace tessera::test

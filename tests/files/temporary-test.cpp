@@ -1,0 +1,65 @@
+// Temporary names are new, one's own, and cleared when their run is gone.
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+
+#include "tests/support/error-line.h"
+#include "fixture.h"
+#include "host/temporary.h"
+
+namespace tessera::test {
+namespace fs = std::filesystem;
+
+TEST_CASE("A temporary folder is new and its owner's alone and goes away") {
+  const Folder folder;
+  fs::path path;
+  {
+    const TemporaryFolder one(folder / "deep", "stem"), two(folder / "deep", "stem");
+    path = one.path();
+    CHECK(path != two.path());
+    CHECK(fs::status(path).permissions() == fs::perms(0700));
+    CHECK(path.filename().string().starts_with("stem."));
+  }
+  CHECK_FALSE(fs::exists(path));
+  folder.write("file", "");
+  CHECK(contains(lineOf(ExitCode::kFailure, [&] { TemporaryFolder(folder / "file", "stem"); }), "/file: "));
+}
+
+TEST_CASE("What a killed run left is cleared and what is in use stays") {
+  const Folder folder;
+  const pid_t child = fork();
+  REQUIRE(child >= 0);
+  if (child == 0) {
+    new TemporaryFolder(folder / "", "work");  // never deleted, as in a run that is killed
+    OutputFile* const file = new OutputFile(folder / "a.png");
+    file->path();
+    _exit(0);
+  }
+  REQUIRE(waitpid(child, nullptr, 0) == child);
+  CHECK(folder.names().size() == 2);
+  fs::create_directories(folder / "a.png.part");
+  folder.write("a.png.backup.tmp", "");
+  folder.write("keep.png.12-ab.tmp", "");  // of another name
+  const TemporaryFolder work(folder / "", "work");
+  OutputFile mine(folder / "a.png");
+  mine.path();
+  writeWhole(folder / "a.png", "text");  // beside the one that is in use
+  CHECK(folder.names().size() == 6);
+  CHECK(fs::exists(work.path()));
+  CHECK(fs::exists(mine.path()));
+  CHECK(fs::exists(folder / "a.png.backup.tmp"));
+  CHECK(fs::exists(folder / "a.png.part"));
+}
+
+TEST_CASE("A link planted under a temporary name is not followed") {
+  const Folder folder;
+  folder.write("victim", "precious");
+  fs::create_symlink("victim", folder / "a.1-aaaaaaaa.tmp");
+  clearTemporaries(folder / "", "a");
+  CHECK(fs::is_symlink(folder / "a.1-aaaaaaaa.tmp"));
+  CHECK(folder.read("victim") == "precious");
+}
+
+}  // namespace tessera::test
