@@ -174,7 +174,7 @@ std::unique_ptr<Device> openDevice(const Options& options) {
 
 std::vector<std::string> presentDevices() {
   std::vector<std::string> names{"cpu"};
-  for (const auto& adapter : listVulkanAdapters())
+  for (const auto& adapter : listVulkanAdapters().adapters)
     if (adapter.whyNot.empty()) names.push_back(fmt::format("vulkan:{}", adapter.index));
   return names;
 }
