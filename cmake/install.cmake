@@ -11,6 +11,13 @@ target_sources(tessera PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} F
 
 install(TARGETS tessera EXPORT tessera FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tessera)
 install(TARGETS tessera-cli)
+# What reads and writes images is loaded when it is needed, from beside the libraries, by the command and by programs that link the
+# library.
+set(moduleFolder ${CMAKE_INSTALL_LIBDIR}/tessera)
+install(TARGETS tessera_image_io LIBRARY DESTINATION ${moduleFolder})
+file(RELATIVE_PATH moduleFromCommand /${CMAKE_INSTALL_BINDIR} /${moduleFolder})
+set_target_properties(tessera-cli PROPERTIES INSTALL_RPATH $ORIGIN/${moduleFromCommand})
+target_link_options(tessera INTERFACE $<INSTALL_INTERFACE:LINKER:-rpath,$<INSTALL_PREFIX>/${moduleFolder}>)
 install(DIRECTORY slang/ DESTINATION ${slangFolder})
 install(DIRECTORY experiments/report/ DESTINATION ${TESSERA_INSTALLED_DATA}/report PATTERN __pycache__ EXCLUDE)
 install(FILES tools/report.txt DESTINATION ${TESSERA_INSTALLED_DATA})
