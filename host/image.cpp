@@ -4,9 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstring>
-#include <fstream>
 #include <string>
 #include <system_error>
 #include <type_traits>
@@ -29,8 +27,6 @@ std::string extensionOf(const fs::path& path) {
   std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
   return extension;
 }
-
-fs::path folderOf(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path("."); }
 
 // A channel of an .exr and where its values lie in a framebuffer. All are 4 bytes wide.
 constexpr std::size_t kChannelBytes = 4;
@@ -61,70 +57,66 @@ auto channelsOf(Frame& frame) {
   return channels;
 }
 
-void writeFile(const fs::path& path, Format format, const imageio::Header& header, const imageio::RowSource& rows) {
-  const fs::path beside = folderOf(path) / uniqueName(path.filename().string());
-  std::error_code error;
-  std::string why = imageModule().write(beside.string(), format, header, rows);
-  if (why.empty()) {
-    fs::rename(beside, path, error);
-    if (error) why = error.message();
-  }
-  if (!why.empty()) {
-    fs::remove(beside, error);
-    fail(fmt::format("{}: cannot be written: {}", path.string(), why));
-  }
-}
-
 imageio::Header pngHeader(std::uint32_t width, std::uint32_t height, int channels, const ImageFacts& facts) {
   imageio::Header header{width, height, {}, facts};
   for (int c = 0; c < channels; ++c) header.channels.push_back({{}, "uint8", 1});
   return header;
 }
 
-Format formatOf(const fs::path& path) { return extensionOf(path) == ".exr" ? Format::kExr : Format::kPng; }
+// The format that stands before a name, and the name after it; nothing where none stands there.
+std::pair<std::optional<Format>, std::string> splitName(const std::string& name) {
+  if (name.starts_with("png:")) return {Format::kPng, name.substr(4)};
+  if (name.starts_with("exr:")) return {Format::kExr, name.substr(4)};
+  return {{}, name};
+}
+
+Format formatOf(const std::string& name) {
+  const auto [format, path] = splitName(name);
+  if (format) return *format;
+  const std::string extension = extensionOf(path);
+  if (extension == ".png") return Format::kPng;
+  if (extension == ".exr") return Format::kExr;
+  failUsage(fmt::format("{}: unknown image format '{}'; the name should end in .png or .exr, or begin with png: or exr: "
+                        "as in png:-",
+                        name, extension));
+}
 
 }  // namespace
 
-void checkImagePath(const fs::path& path) {
-  const std::string extension = extensionOf(path);
-  if (extension != ".png" && extension != ".exr") {
-    failUsage(
-        fmt::format("{}: unknown image format '{}'; the name should end in .png or .exr", path.string(), extension));
-  }
-  std::error_code error;
-  const fs::path folder = folderOf(path);
-  if (!fs::is_directory(folder, error))
-    failUsage(fmt::format("{}: there is no folder {}", path.string(), folder.string()));
-  if (fs::is_directory(path, error)) failUsage(fmt::format("{}: is a folder, not an image file", path.string()));
-  // Asking for permissions misses read-only and special file systems; making a file does not.
-  const fs::path probe = folder / uniqueName(path.filename().string());
-  errno = 0;
-  const bool made = std::ofstream(probe).is_open();
-  const int cause = errno;
-  fs::remove(probe, error);
-  if (!made) {
-    failUsage(fmt::format("{}: cannot write into {}: {}", path.string(), folder.string(),
-                          std::generic_category().message(cause)));
-  }
-}
+struct ImageOutput::State {
+  Format format;
+  fs::path path;
+  OutputFile file;
 
-void writeImage(const fs::path& path, const Framebuffer& frame, const std::optional<ValueRange>& range,
-                const ImageFacts& facts) {
-  checkImagePath(path);
+  explicit State(const std::string& name) : format(formatOf(name)), path(splitName(name).second), file(path) {}
+
+  void write(const imageio::Header& header, const imageio::RowSource& rows) {
+    const std::string why = imageModule().write(file.path().string(), format, header, rows);
+    if (!why.empty()) fail(fmt::format("{}: could not be written: {}", path.string(), why));
+    file.commit();
+  }
+};
+
+ImageOutput::ImageOutput(const std::string& name) : state_(std::make_unique<State>(name)) {}
+ImageOutput::~ImageOutput() = default;
+ImageOutput::ImageOutput(ImageOutput&&) noexcept = default;
+const fs::path& ImageOutput::path() const { return state_->path; }
+
+void ImageOutput::write(const Framebuffer& frame, const std::optional<ValueRange>& range, const ImageFacts& facts) {
   const auto channels = channelsOf(frame);
-  if (channels.empty()) fail(fmt::format("{}: the frame holds nothing to write", path.string()));
-  if (formatOf(path) == Format::kPng) {
+  if (channels.empty()) fail(fmt::format("{}: the frame holds nothing to write", path().string()));
+  if (state_->format == Format::kPng) {
     const Picture picture = makePicture(frame, range);
-    writeFile(path, Format::kPng, pngHeader(frame.width, frame.height, picture.channels, facts),
-              [&](std::uint32_t begin, std::uint32_t end, std::byte* out) {
-                picture.pixels(std::size_t{begin} * frame.width, std::size_t{end} * frame.width,
-                               reinterpret_cast<std::uint8_t*>(out));
-              });
+    state_->write(pngHeader(frame.width, frame.height, picture.channels, facts),
+                  [&](std::uint32_t begin, std::uint32_t end, std::byte* out) {
+                    picture.pixels(std::size_t{begin} * frame.width, std::size_t{end} * frame.width,
+                                   reinterpret_cast<std::uint8_t*>(out));
+                  });
     return;
   }
   imageio::Header header{frame.width, frame.height, {}, facts};
   for (const auto& channel : channels) header.channels.push_back({channel.name, channel.type, kChannelBytes});
-  writeFile(path, Format::kExr, header, [&](std::uint32_t begin, std::uint32_t end, std::byte* out) {
+  state_->write(header, [&](std::uint32_t begin, std::uint32_t end, std::byte* out) {
     for (std::size_t k = std::size_t{begin} * frame.width; k < std::size_t{end} * frame.width; ++k) {
       for (const auto& channel : channels) {
         std::memcpy(out, channel.data + k * channel.stride, kChannelBytes);
@@ -134,16 +126,14 @@ void writeImage(const fs::path& path, const Framebuffer& frame, const std::optio
   });
 }
 
-void writeColours(const fs::path& path, std::uint32_t width, std::uint32_t height, const ColourRows& rows,
-                  const ImageFacts& facts) {
-  checkImagePath(path);
+void ImageOutput::write(std::uint32_t width, std::uint32_t height, const ColourRows& rows, const ImageFacts& facts) {
   std::vector<glm::vec3> colours;
   const auto make = [&](std::uint32_t begin, std::uint32_t end) {
     colours.resize(std::size_t{end - begin} * width);
     rows(begin, end, colours.data());
   };
-  if (formatOf(path) == Format::kPng) {
-    writeFile(path, Format::kPng, pngHeader(width, height, 3, facts), [&](auto begin, auto end, std::byte* out) {
+  if (state_->format == Format::kPng) {
+    state_->write(pngHeader(width, height, 3, facts), [&](std::uint32_t begin, std::uint32_t end, std::byte* out) {
       make(begin, end);
       auto* next = reinterpret_cast<std::uint8_t*>(out);
       for (const glm::vec3& colour : colours) next = putSrgb(colour, next);
@@ -152,10 +142,15 @@ void writeColours(const fs::path& path, std::uint32_t width, std::uint32_t heigh
   }
   imageio::Header header{width, height, {}, facts};
   for (const char* name : {"R", "G", "B"}) header.channels.push_back({name, "float", kChannelBytes});
-  writeFile(path, Format::kExr, header, [&](auto begin, auto end, std::byte* out) {
+  state_->write(header, [&](std::uint32_t begin, std::uint32_t end, std::byte* out) {
     make(begin, end);
     std::memcpy(out, colours.data(), colours.size() * sizeof(glm::vec3));
   });
+}
+
+void writeImage(const fs::path& path, const Framebuffer& frame, const std::optional<ValueRange>& range,
+                const ImageFacts& facts) {
+  ImageOutput(path.string()).write(frame, range, facts);
 }
 
 struct ImageReader::State {
