@@ -34,8 +34,15 @@ class Pair {
       failUsage("the images have no channel in common: nothing to compare");
   }
 
+  bool hasCoverage() const { return ids_ || hits_; }
+  bool hasIds() const { return ids_; }
+  bool hasDepth() const { return depth_; }
+  bool hasHits() const { return hits_; }
   bool hasColour() const { return colour_; }
   bool hasAttribute() const { return attribute_; }
+  bool idUnknown(std::size_t k) const {
+    return ids_ && (a_.ids[k] == kUnknownTriangle || b_.ids[k] == kUnknownTriangle);
+  }
   bool covered(std::size_t k) const { return ids_ ? a_.ids[k] != kNoTriangle : hits_ ? a_.hits[k] != 0 : true; }
   bool coverageDiffers(std::size_t k) const {
     if (ids_) return (a_.ids[k] == kNoTriangle) != (b_.ids[k] == kNoTriangle);
@@ -43,8 +50,7 @@ class Pair {
   }
   bool idDiffers(std::size_t k) const {
     if (!ids_ || a_.ids[k] == b_.ids[k]) return false;
-    const bool known = a_.ids[k] != kUnknownTriangle && b_.ids[k] != kUnknownTriangle;
-    return known || coverageDiffers(k);
+    return !idUnknown(k) || coverageDiffers(k);
   }
   bool depthDiffers(std::size_t k) const { return depth_ && bitsDiffer(a_.depth[k], b_.depth[k]); }
   bool attributeDiffers(std::size_t k) const { return attribute_ && bitsDiffer(a_.attribute[k], b_.attribute[k]); }
@@ -105,28 +111,29 @@ glm::vec3 linear(int r, int g, int b) {
 
 Difference compare(const Framebuffer& a, const Framebuffer& b) {
   const Pair pair(a, b);
-  Difference result;
-  result.pixels = a.pixels();
-  double squares = 0, attributeSquares = 0;
+  std::uint64_t coverages = 0, ids = 0, depths = 0, hits = 0, attributes = 0, colours = 0;
+  double depthMaxAbs = 0, depthMaxUlp = 0, attributeMax = 0, squares = 0, attributeSquares = 0;
   std::uint64_t values = 0;  // pixels that have one in both
+  bool idsKnown = pair.hasIds();
+  Difference result;
   for (std::size_t k = 0; k < a.pixels(); ++k) {
     const bool coverage = pair.coverageDiffers(k), depth = pair.depthDiffers(k);
-    result.coverage += coverage;
-    result.id += pair.idDiffers(k);
-    result.depth += depth;
-    result.hits += pair.hitsDiffer(k);
-    result.attribute += pair.attributeDiffers(k);
-    result.colour += pair.colourDiffers(k);
+    coverages += coverage;
+    ids += pair.idDiffers(k);
+    depths += depth;
+    hits += pair.hitsDiffer(k);
+    attributes += pair.attributeDiffers(k);
+    colours += pair.colourDiffers(k);
+    idsKnown = idsKnown && !pair.idUnknown(k);
     if (depth && !coverage) {
       const double apart = std::abs(static_cast<double>(a.depth[k]) - static_cast<double>(b.depth[k]));
       const auto steps = static_cast<double>(std::abs(stepOf(a.depth[k]) - stepOf(b.depth[k])));
-      result.depthMaxAbs =
-          std::max(result.depthMaxAbs, std::isnan(apart) ? std::numeric_limits<double>::infinity() : apart);
-      result.depthMaxUlp = std::max(result.depthMaxUlp, steps);
+      depthMaxAbs = std::max(depthMaxAbs, std::isnan(apart) ? std::numeric_limits<double>::infinity() : apart);
+      depthMaxUlp = std::max(depthMaxUlp, steps);
     }
     if (pair.hasAttribute() && !std::isnan(a.attribute[k]) && !std::isnan(b.attribute[k])) {
       const double apart = std::abs(static_cast<double>(a.attribute[k]) - static_cast<double>(b.attribute[k]));
-      result.attributeMax = std::max(result.attributeMax, apart);
+      attributeMax = std::max(attributeMax, apart);
       attributeSquares += apart * apart;
       ++values;
     }
@@ -136,10 +143,24 @@ Difference compare(const Framebuffer& a, const Framebuffer& b) {
       result.firstY = static_cast<std::int64_t>(k / a.width);
     }
   }
-  if (values != 0) result.attributeRms = std::sqrt(attributeSquares / static_cast<double>(values));
-  const double mean = squares / (3 * static_cast<double>(a.pixels()));
-  result.psnr =
-      pair.hasColour() ? -10 * std::log10(mean) : std::numeric_limits<double>::quiet_NaN();  // log10(0) is -infinity
+  result.pixels = a.pixels();
+  if (pair.hasCoverage()) result.coverage = coverages;
+  if (idsKnown) result.id = ids;
+  if (pair.hasDepth()) {
+    result.depth = depths;
+    result.depthMaxAbs = depthMaxAbs;
+    result.depthMaxUlp = depthMaxUlp;
+  }
+  if (pair.hasHits()) result.hits = hits;
+  if (pair.hasAttribute()) {
+    result.attribute = attributes;
+    result.attributeMax = attributeMax;
+    result.attributeRms = values == 0 ? 0 : std::sqrt(attributeSquares / static_cast<double>(values));
+  }
+  if (pair.hasColour()) {
+    result.colour = colours;
+    result.psnr = -10 * std::log10(squares / (3 * static_cast<double>(a.pixels())));  // log10(0) is -infinity
+  }
   return result;
 }
 

@@ -76,22 +76,23 @@ void startLoadingImages();
 /// Waits until it is there: the milliseconds that the loading took. Throws kFailure with one line if it cannot be.
 double finishLoadingImages();
 
-/// How two framebuffers differ in what both hold. Where one knows no id (kUnknownTriangle) its pixel is covered, and
-/// agrees with any id. They have one size and something to compare (kUsage otherwise).
+/// How two framebuffers differ in what both hold; what one of them does not hold is absent, which is not a 0. They have
+/// one size and something to compare (kUsage otherwise).
 struct Difference {
-  std::uint64_t pixels = 0;                   ///< compared
-  std::uint64_t coverage = 0;                 ///< covered in one and not in the other
-  std::uint64_t id = 0;                       ///< another id, coverage differences among them
-  std::uint64_t depth = 0;                    ///< other depth bits
-  std::uint64_t hits = 0;                     ///< other hit counts
-  std::uint64_t colour = 0;                   ///< other colour bits
-  std::uint64_t attribute = 0;                ///< other bits of the attribute
-  double depthMaxAbs = 0;                     ///< over the pixels on whose coverage both agree; infinity if one is NaN
-  double depthMaxUlp = 0;                     ///< the same as distance in float32 steps
-  double attributeMax = 0, attributeRms = 0;  ///< of the differences of the attribute, where both have a value
-  double psnr = 0;                            ///< of colour, dB; infinity when equal, NaN when there is none to compare
-  std::int64_t firstX = -1, firstY = -1;      ///< first differing pixel in row order, -1 if none
-  bool equal() const { return id == 0 && depth == 0 && hits == 0 && colour == 0 && attribute == 0; }
+  using Count = std::optional<std::uint64_t>;
+  std::uint64_t pixels = 0;  ///< compared
+  Count coverage;            ///< covered in one and not in the other
+  Count id;         ///< another id, coverage differences among them; absent where one knows an id as kUnknownTriangle
+  Count depth;      ///< other depth bits
+  Count hits;       ///< other hit counts
+  Count colour;     ///< other colour bits
+  Count attribute;  ///< other bits of the attribute
+  std::optional<double> depthMaxAbs;  ///< over the pixels on whose coverage both agree; infinity if one is NaN
+  std::optional<double> depthMaxUlp;  ///< the same as distance in float32 steps
+  std::optional<double> attributeMax, attributeRms;  ///< of the attribute, where both have a value
+  std::optional<double> psnr;                        ///< of colour, dB; infinity when equal
+  std::int64_t firstX = -1, firstY = -1;             ///< first differing pixel in row order, -1 if none
+  bool equal() const { return firstX < 0; }
 };
 Difference compare(const Framebuffer& a, const Framebuffer& b);
 /// A picture of where they differ, linear RGB: light grey where both agree (darker where something is drawn), vermilion

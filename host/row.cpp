@@ -67,27 +67,30 @@ Json timeJson(const Run& run) {
           {"iqr", total.iqr},  {"stages", stages},       {"clock", run.device.timeClock}};
 }
 
-// JSON has no infinity.
-void putFinite(Json& json, const char* name, double value) {
-  if (std::isfinite(value)) json[name] = value;
-}
+Json countJson(const Difference::Count& count) { return count ? Json(*count) : Json(); }
+
+/// Null for what is not there, and since JSON has no infinity for what is not finite.
+Json finiteJson(const std::optional<double>& value) { return value && std::isfinite(*value) ? Json(*value) : Json(); }
 
 Json differenceJson(const Difference& difference) {
-  Json json = {{"pixels", difference.pixels},           {"coverage_mismatch", difference.coverage},
-               {"id_mismatch", difference.id},          {"depth_mismatch", difference.depth},
-               {"hit_count_mismatch", difference.hits}, {"attribute_mismatch", difference.attribute}};
-  putFinite(json, "depth_max_ulp", difference.depthMaxUlp);
-  putFinite(json, "depth_max_abs", difference.depthMaxAbs);
-  putFinite(json, "psnr", difference.psnr);
-  return json;
+  return {{"pixels", difference.pixels},
+          {"coverage_mismatch", countJson(difference.coverage)},
+          {"id_mismatch", countJson(difference.id)},
+          {"depth_mismatch", countJson(difference.depth)},
+          {"hit_count_mismatch", countJson(difference.hits)},
+          {"attribute_mismatch", countJson(difference.attribute)},
+          {"colour_mismatch", countJson(difference.colour)},
+          {"depth_max_ulp", finiteJson(difference.depthMaxUlp)},
+          {"depth_max_abs", finiteJson(difference.depthMaxAbs)},
+          {"psnr", finiteJson(difference.psnr)}};
 }
 
 Json errorJson(const Run& run) {
   Json json = run.difference ? differenceJson(*run.difference) : Json::object();
   if (run.hitCountNotOne) json["hit_count_not_one"] = *run.hitCountNotOne;
   if (run.attributeError) {
-    putFinite(json, "attribute_max", run.attributeError->max);
-    putFinite(json, "attribute_rms", run.attributeError->rms);
+    json["attribute_max"] = finiteJson(run.attributeError->max);
+    json["attribute_rms"] = finiteJson(run.attributeError->rms);
   }
   return json;
 }
@@ -95,9 +98,9 @@ Json errorJson(const Run& run) {
 /// The attribute's error is from the picture that is held to be true, value by value.
 Json truthErrorJson(const Run& run) {
   Json json = differenceJson(*run.truthDifference);
-  if (run.scene && !run.scene->attribute.empty()) {
-    putFinite(json, "attribute_max", run.truthDifference->attributeMax);
-    putFinite(json, "attribute_rms", run.truthDifference->attributeRms);
+  if (run.truthDifference->attribute) {
+    json["attribute_max"] = finiteJson(run.truthDifference->attributeMax);
+    json["attribute_rms"] = finiteJson(run.truthDifference->attributeRms);
   }
   return json;
 }

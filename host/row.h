@@ -17,7 +17,7 @@
 
 namespace tessera {
 
-inline constexpr int kRowSchemaVersion = 2;
+inline constexpr int kRowSchemaVersion = 3;
 
 /// What a run leaves behind. A member that is empty leaves its field out of the row.
 struct Run {
@@ -57,8 +57,8 @@ std::uint64_t coveredPixels(const Framebuffer& frame);
 /// The row's word for an error: "overflow", "unsupported" or "error".
 std::string statusOf(ExitCode code);
 
-/// The row's `error` of a difference alone: an object in JSON, of numbers. JSON has no infinity: what is not finite is
-/// left out.
+/// The row's `error` of a difference alone: an object in JSON, of numbers, and null for what there was not to compare or
+/// is not finite.
 std::string differenceText(const Difference& difference);
 /// Now, as rows have it: "2026-11-23T09:26:00Z".
 std::string utcText();

@@ -97,9 +97,9 @@ std::string json(const Report& report, bool raw) {
                   {"draw_over_cpu", spreadJson(ratio(c.drawDevice, totals(c.cpu)))},
                   {"again_over_cpu", spreadJson(ratio(totals(c.again), totals(c.cpu)))},
                   {"covered", c.covered},
-                  {"coverage_mismatch", c.difference.coverage},
-                  {"id_mismatch", c.difference.id},
-                  {"depth_max_abs", c.difference.depthMaxAbs}};
+                  {"coverage_mismatch", c.difference.coverage.value()},
+                  {"id_mismatch", c.difference.id.value()},
+                  {"depth_max_abs", c.difference.depthMaxAbs.value()}};
     for (const auto& [stage, ns] : stageMedians(c.cpu)) scene["cpu_stages_ns"][stage] = ns;
     if (raw)
       scene["samples_ns"] = {{"cpu", totals(c.cpu)}, {"cpu_again", totals(c.again)}, {"draw_device", c.drawDevice}, {"draw_wall", c.drawWall}};

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <utility>
 
 #include "host/cli/common.h"
 #include "host/cli/measure.h"
@@ -48,10 +49,15 @@ Plan planOf(const Scene& scene, const Variant& asked, const DeviceInfo& device, 
 }
 
 std::string mismatches(const Difference& d) {
-  return fmt::format(
-      "differs from the oracle: of {} pixels coverage in {}, ids in {}, depth in {}, hits in {}, values in {}",
-      cli::grouped(d.pixels), cli::grouped(d.coverage), cli::grouped(d.id), cli::grouped(d.depth), cli::grouped(d.hits),
-      cli::grouped(d.attribute));
+  std::string text = fmt::format("differs from the oracle: of {} pixels", cli::grouped(d.pixels));
+  const char* separator = " ";
+  for (const auto& [name, count] : {std::pair{"coverage", d.coverage},
+                                    {"ids", d.id},
+                                    {"depth", d.depth},
+                                    {"hits", d.hits},
+                                    {"values", d.attribute}})
+    if (count) text += fmt::format("{}{} in {}", std::exchange(separator, ", "), name, cli::grouped(*count));
+  return text;
 }
 
 /// An implementation variant that differs: an error, but where the device's arithmetic promises nothing.
@@ -112,7 +118,7 @@ bool variesFromRunToRun(const Variant& resolved) { return resolved.get("overflow
 
 Difference errorOf(const Scene& scene, const Variant& resolved, const Framebuffer& image, Oracles& oracles) {
   cli::Oracle& oracle = oracles.of(scene, resolved);
-  oracle.holdColours(image.colour);  // it does not shade
+  oracle.holdColours({});  // those of another cell say nothing of this one
   return oracle.against(image);
 }
 
@@ -141,8 +147,8 @@ double checkCell(Run& run, std::size_t number, const CheckTools& tools) {
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 
   cli::measureError(run, image);
-  std::vector<glm::vec3> colours = image.colour;
-  if (!colours.empty() && isApproximate(run.variant)) {
+  std::vector<glm::vec3> colours;
+  if (!image.colour.empty() && isApproximate(run.variant)) {
     const Variant exact = cli::exactVariant(asked, run.variant);
     compile(scene, exact, run.device, tools.kernels);
     tools.frame([&] { colours = rasterizer.render(scene, exact).image.colour; });

@@ -25,6 +25,7 @@ const Names kErrorFields{"pixels",
                          "hit_count_mismatch",
                          "hit_count_not_one",
                          "attribute_mismatch",
+                         "colour_mismatch",
                          "attribute_max",
                          "attribute_rms",
                          "psnr"};

@@ -57,6 +57,10 @@ void putErrors(Json& row, const std::vector<Sample>& samples) {
       lists[field].push_back(sample.error.is_object() ? sample.error.value(field, Json()) : Json());
       if (lists[field].back().is_number()) values.push_back(lists[field].back());
     }
+    if (values.empty()) {  // what no frame holds
+      lists.erase(field);
+      continue;
+    }
     const double median = medianOf(values);
     if (const auto whole = static_cast<std::int64_t>(median); static_cast<double>(whole) == median)
       row["error"][field] = whole;

@@ -53,9 +53,10 @@ std::string errorText(const Json& row) {
                                     {"id_mismatch", "ids"},
                                     {"depth_mismatch", "depth"},
                                     {"hit_count_mismatch", "hits"},
-                                    {"attribute_mismatch", "values"}})
-    if (const double count = error.value(field, 0.0); count > 0)
-      text += fmt::format("{}{} {:g}", text.empty() ? "" : ", ", name, count);
+                                    {"attribute_mismatch", "values"},
+                                    {"colour_mismatch", "colours"}})
+    if (const Json count = error.value(field, Json()); count.is_number() && count > 0)
+      text += fmt::format("{}{} {:g}", text.empty() ? "" : ", ", name, count.get<double>());
   return text.empty() ? "none" : text;
 }
 

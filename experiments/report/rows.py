@@ -10,6 +10,7 @@ import tomllib
 
 import ratios
 from refused import Refused
+import versions
 
 # What a cell can be told apart by besides the axes; "x" is the number of its scene.
 kPlaces = ("machine", "scene", "size", "device", "threads")
@@ -181,10 +182,10 @@ def readLines(path, schema):
         ) from None
       if not isinstance(row, dict) or "schema_version" not in row:
         raise Refused(f"{where}: not a row; a line should be one row, as 'tessera sweep' writes it")
-      if row["schema_version"] != schema:
+      if not versions.kOldest <= row["schema_version"] <= schema:
         raise Refused(
-          f"{where}: a row of schema version {row['schema_version']}; this report reads version {schema}: "
-          "make it with the tessera that made the rows, or run the sweep again"
+          f"{where}: a row of schema version {row['schema_version']}; this report reads versions {versions.kOldest} to"
+          f" {schema}: make it with the tessera that made the rows, or run the sweep again"
         )
       for key, kind in (("sweep", dict), ("status", str), ("provenance", dict), ("scene", dict)):
         if not isinstance(row.get(key), kind):
@@ -194,7 +195,7 @@ def readLines(path, schema):
       for key in ("title", "question", "sha256", "cell", "group", "scene", "device"):
         if key not in row["sweep"]:
           raise Refused(f"{where}: sweep.{key}: missing; a sweep's row has it")
-      cells.append(Cell(row, line))
+      cells.append(Cell(versions.raised(row), line))
   if not cells:
     raise Refused(f"{path}: no rows; run the sweep first: tessera sweep SWEEP.toml --out {path.parent}")
   return cells

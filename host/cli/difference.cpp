@@ -33,13 +33,13 @@ std::string describe(const Difference& difference) {
       {{"pixels", "coverage", "id", "depth", "hits", "values", "colour"},
        {grouped(difference.pixels), grouped(difference.coverage), grouped(difference.id), grouped(difference.depth),
         grouped(difference.hits), grouped(difference.attribute), grouped(difference.colour)}});
-  if (difference.depth != 0)
-    text +=
-        fmt::format("largest depth difference {} ({} float32 steps)\n", difference.depthMaxAbs, difference.depthMaxUlp);
-  if (difference.attribute != 0)
-    text +=
-        fmt::format("largest difference of the values {}, rms {}\n", difference.attributeMax, difference.attributeRms);
-  if (difference.colour != 0) text += fmt::format("PSNR of the colours {:.2f} dB\n", difference.psnr);
+  if (difference.depth.value_or(0) != 0)
+    text += fmt::format("largest depth difference {} ({} float32 steps)\n", *difference.depthMaxAbs,
+                        *difference.depthMaxUlp);
+  if (difference.attribute.value_or(0) != 0)
+    text += fmt::format("largest difference of the values {}, rms {}\n", *difference.attributeMax,
+                        *difference.attributeRms);
+  if (difference.colour.value_or(0) != 0) text += fmt::format("PSNR of the colours {:.2f} dB\n", *difference.psnr);
   return text + (difference.equal() ? "equal\n" : "different\n");
 }
 

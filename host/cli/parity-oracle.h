@@ -10,14 +10,15 @@
 
 namespace tessera::cli {
 
-/// The oracle does not shade: the first frame's colours are what the others' are held against.
+/// The oracle does not shade: without colours from elsewhere there are none to compare.
 class Oracle {
  public:
   Oracle(const Scene& scene, const Variant& variant);
 
-  Difference against(const Framebuffer& frame);
-  /// Colours from elsewhere, before any frame's.
+  Difference against(const Framebuffer& frame) const;
+  /// What the colours of the frames that follow are held against.
   void holdColours(std::vector<glm::vec3> colours) { image_.colour = std::move(colours); }
+  bool holdsColours() const { return !image_.colour.empty(); }
   /// The oracle's image reduced to what the frame holds: hits under commit=count, depth and ids
   /// otherwise.
   Framebuffer expected(const Framebuffer& frame) const;

@@ -22,20 +22,13 @@ std::string verdictTable(const std::vector<Outcome>& outcomes) {
   Rows rows{{"device", "route", "name", "probe", "covered", "coverage", "ids", "depths", "hits", "values", "colours",
              "verdict"}};
   for (const auto& outcome : outcomes) {
+    const bool compared = outcome.run.difference.has_value();
     const Difference difference = outcome.run.difference.value_or(Difference{});
-    // A dash where there was nothing to compare: no shading, or no depths and ids under commit=count.
-    const auto count = [&](bool compared, std::uint64_t n) {
-      return outcome.run.difference && compared ? grouped(n) : "-";
-    };
-    const Variant& variant = outcome.run.variant;
-    const bool counting = variant.get("commit") == "count", shaded = variant.get("shade") != "none";
-    const bool valued = outcome.run.scene && !outcome.run.scene->attribute.empty();
     const std::string probe = outcome.probe.results.empty() ? "not run" : verdictOf(outcome.probe);
     rows.push_back({outcome.attempt.device, outcome.attempt.route, outcome.run.device.name, probe,
-                    count(true, outcome.covered), count(!counting, difference.coverage),
-                    count(!counting, difference.id), count(!counting, difference.depth),
-                    count(counting, difference.hits), count(valued, difference.attribute),
-                    count(shaded, difference.colour), verdictText(outcome.verdict())});
+                    compared ? grouped(outcome.covered) : "-", grouped(difference.coverage), grouped(difference.id),
+                    grouped(difference.depth), grouped(difference.hits), grouped(difference.attribute),
+                    grouped(difference.colour), verdictText(outcome.verdict())});
   }
   return table(rows);
 }

@@ -97,6 +97,7 @@ class Parity {
       const Framebuffer image = measure(run, rasterizer, kernels_, options_.repeat).image;
       run.peakBufferBytes = device.peakBufferBytes();
       run.difference = oracle.against(image);
+      if (!oracle.holdsColours()) oracle.holdColours(image.colour);  // the first device's are what the others' have to be
       run.attributeRange = attributeOf(options_).range;
       measureError(run, image);
       outcome.covered = coveredPixels(image);

@@ -22,10 +22,11 @@ std::string oracleLine(const Run& run) {
     text += fmt::format("hits {}", grouped(d.hits));
   else
     text += fmt::format("coverage {}, ids {}, depth {} (at most {:.3g})", grouped(d.coverage), grouped(d.id),
-                        grouped(d.depth), d.depthMaxAbs);
-  if (!run.scene->attribute.empty()) text += fmt::format(", values {}", grouped(d.attribute));
-  if (isApproximate(run.variant) && !std::isnan(d.psnr))
-    text += std::isinf(d.psnr) ? "; colours equal" : fmt::format("; colours {:.2f} dB from exact ones", d.psnr);
+                        grouped(d.depth), *d.depthMaxAbs);
+  if (d.attribute) text += fmt::format(", values {}", grouped(d.attribute));
+  if (isApproximate(run.variant) && d.colour)
+    text += *d.colour == 0 ? "; colours equal"
+                           : fmt::format("; colours {}, {:.2f} dB from exact ones", grouped(d.colour), *d.psnr);
   return text + '\n';
 }
 

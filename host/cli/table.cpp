@@ -43,6 +43,8 @@ std::string grouped(std::uint64_t number) {
   return text;
 }
 
+std::string grouped(std::optional<std::uint64_t> number) { return number ? grouped(*number) : "-"; }
+
 std::string milliseconds(double nanoseconds) {
   const double ms = nanoseconds * 1e-6;
   return fmt::format("{:.{}f}", ms, ms >= 100 ? 0 : ms >= 10 ? 1 : ms >= 1 ? 2 : 3);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@ namespace tessera::cli {
 std::string table(const std::vector<std::vector<std::string>>& rows);
 
 std::string grouped(std::uint64_t number);     ///< 88,928
+std::string grouped(std::optional<std::uint64_t> number);  ///< a dash where there is none
 std::string milliseconds(double nanoseconds);  ///< "4.21", three significant figures or more
 std::string byteSize(std::uint64_t bytes);     ///< "128 MiB"
 

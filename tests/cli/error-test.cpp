@@ -34,25 +34,32 @@ TEST_CASE("An approximate variant's error is in the row and the summary and an e
   CHECK(lossy["psnr"] > 0);  // finite: the colours of what was lost are missing
   CHECK(summary.find("error against the oracle") != std::string::npos);
   CHECK(summary.find(" dB from exact ones") != std::string::npos);
-  CHECK_FALSE(rowOf(desk, drop, &summary)["error"].contains("psnr"));  // no colours
+  CHECK_FALSE(rowOf(desk, drop, &summary)["error"]["psnr"].is_number());  // no colours
   const json asked = rowOf(desk, std::string(kSoup) + " --error --set shade=flat", &summary)["error"];
   for (const char* const part : {"coverage_mismatch", "id_mismatch", "depth_mismatch"}) CHECK(asked[part] == 0);
   CHECK(summary.find("coverage 0, ids 0, depth 0") != std::string::npos);
   CHECK(summary.find("dB") == std::string::npos);  // nothing exact to hold its colours against but themselves
+  CHECK(asked["colour_mismatch"].is_null());
 }
 
 TEST_CASE("A commit without ids has its coverage and depth held against the oracle") {
   Desk desk;
   const std::string render = "render 'generate:icosphere?level=2' --size 100x75 -o a.png --json row.json --set commit=";
+  std::string summary;
   const json grey = rowOf(desk, render + "depth24+lum8")["error"],
-             colours = rowOf(desk, render + "depth32+rgba8")["error"];
+             colours = rowOf(desk, render + "depth32+rgba8", &summary)["error"];
   for (const json& error : {grey, colours})
-    for (const char* const part : {"coverage_mismatch", "id_mismatch"}) CHECK(error[part] == 0);
+  {
+    CHECK(error["coverage_mismatch"] == 0);
+    for (const char* const part : {"id_mismatch", "hit_count_mismatch"}) CHECK(error[part].is_null());
+  }
+  CHECK(summary.find("coverage 0, ids -, depth 0") != std::string::npos);
   CHECK(grey["depth_max_abs"] > 0);
   CHECK(grey["depth_max_abs"] < 0x1p-23);
   CHECK(colours["depth_max_abs"] == 0);
   CHECK(colours["psnr"] > 50);            // bytes for floats: half of 1/255 at most
   CHECK(grey["psnr"] < colours["psnr"]);  // and no hue
+  CHECK(colours["colour_mismatch"] > 0);
 }
 
 TEST_CASE("An approximate variant is the same on every device though not the oracle's") {

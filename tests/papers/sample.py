@@ -8,7 +8,7 @@ from pathlib import Path
 
 kRoot = Path(__file__).resolve().parents[2]
 kSweeps = ("tile-size", "bin-capacity", "pineda-cells")
-kSchema = 2
+kSchema = 3
 kRounds = 5
 
 

@@ -48,7 +48,7 @@ class Command(unittest.TestCase):
     row = json.loads(lines[2])
     refusedWith(lines[2][:80] + "\n", "not a line of JSON")
     refusedWith("[1]\n", "not a row")
-    refusedWith(json.dumps(row | {"schema_version": 1}) + "\n", "schema version 1", f"reads version {support.kSchema}")
+    refusedWith(json.dumps(row | {"schema_version": 1}) + "\n", "schema version 1", f"reads versions 2 to {support.kSchema}")
     refusedWith(json.dumps({key: value for key, value in row.items() if key != "sweep"}) + "\n", "sweep: missing")
     refusedWith(
       json.dumps(row | {"sweep": row["sweep"] | {"sha256": "f" * 64, "title": "Other"}}) + "\n",

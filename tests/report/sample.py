@@ -6,7 +6,7 @@ import random
 import sys
 from pathlib import Path
 
-kSchema = 2
+kSchema = 3
 kToml = """title = "Sample"
 question = "Does the report show what the rows hold?"
 sizes = [256, 512]

@@ -48,7 +48,7 @@ TEST_CASE("Folders and inputs that will not do are refused in a line") {
   checkRefused(desk, "tile.toml --out new --quick", "quick");
 
   const std::string journal = desk.read("out/journal.jsonl");
-  const std::string version = "\"schema_version\":2";
+  const std::string version = "\"schema_version\":3";
   const std::size_t at = journal.find(version);
   REQUIRE(at != std::string::npos);
   desk.write("out/journal.jsonl", std::string(journal).replace(at, version.size(), "\"schema_version\":1"));
