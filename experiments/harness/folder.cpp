@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "experiments/harness/rows.h"
 #include "host/error.h"
+#include "host/row.h"
 
 namespace tessera::harness {
 namespace {
@@ -32,7 +34,14 @@ std::optional<Record> recordOf(const fs::path& folder, bool resume) {
   if (!resume)
     failUsage(fmt::format("--out {}: holds a sweep already; --resume goes on with it, another folder begins anew",
                           folder.string()));
-  return readJournal(folder);
+  Record record = readJournal(folder);
+  if (const int version = record.head.at("schema_version"); version != kRowSchemaVersion)
+    failUsage(
+        fmt::format("{}:1: rows of version {}, this program's have {}; the program that began it goes on with it, or a "
+                    "new folder begins anew",
+                    journalOf(folder).string(), version, kRowSchemaVersion));
+  checkRowsKept(folder, record);
+  return record;
 }
 
 void removeHalfFiles(const fs::path& folder) {

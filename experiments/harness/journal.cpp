@@ -2,14 +2,19 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 
 #include "datasets/text.h"
+#include "experiments/harness/fields.h"
 #include "host/error.h"
 #include "host/files.h"
 #include "host/row.h"
@@ -20,45 +25,113 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::chrono::seconds kSyncInterval{5};  // what a crash of the machine, not of the program, may cost
+constexpr int kOldestRowSchema = 2;               // version 3 has null where that had a 0 for what an image does not hold
+constexpr std::array kStatuses{"ok", "overflow", "unsupported", "timeout", "error"};
 
-Sample sampleOf(const Json& line) {
-  Sample sample{.round = line["round"],
-                .repeat = line["repeat"],
-                .session = line["session"],
-                .times = {.totalNs = line["total_ns"], .stages = {}},
+/// Numbers, or null where there was nothing to count.
+void checkNumbers(const Json& json, const char* key) {
+  if (!json.contains(key)) return;
+  for (const auto& [name, value] : objectAt(json, key).items())
+    if (!value.is_null() && !(value.is_number() && std::isfinite(value.get<double>())))
+      failField(fmt::format("{}.{}", key, name), &value, "a number or null");
+}
+
+/// A row as a check leaves it, with all that rows, summaries and a resumed sweep take from it.
+void checkRow(const Json& row, int version) {
+  if (wholeAt<unsigned>(row, "schema_version") != static_cast<unsigned>(version))
+    failField("schema_version", &member(row, "schema_version"), fmt::format("that of the journal, {},", version));
+  const std::string& status = textAt(row, "status");
+  if (std::ranges::find(kStatuses, status) == std::end(kStatuses))
+    failField("status", &member(row, "status"), fmt::format("one of {}", fmt::join(kStatuses, ", ")));
+  textAt(row, "run_id");
+  for (const auto& [axis, value] : objectAt(row, "variant").items()) textAt(objectAt(row, "variant"), axis.c_str());
+  objectAt(row, "provenance");
+  objectAt(row, "scene");
+  for (const char* const key : {"message", "clock", "picture"})
+    if (row.contains(key)) textAt(row, key);
+  for (const char* const key : {"error", "truth_error", "counters"}) checkNumbers(row, key);
+  if (row.contains("kernel_files"))
+    for (const auto& [stage, file] : objectAt(row, "kernel_files").items()) textAt(file, "sha256");
+}
+
+void checkCell(const Json& cell) {
+  textAt(cell, "name");
+  textAt(cell, "command");
+  const Json& sweep = objectAt(cell, "sweep");
+  wholeAt<std::uint32_t>(sweep, "group");
+  for (const char* const key : {"reference", "twin"}) flagAt(sweep, key);
+  for (const char* const key : {"title", "question", "sha256", "scene", "device"}) textAt(sweep, key);
+  if (member(sweep, "cell") != member(cell, "cell"))
+    failField("sweep.cell", &member(sweep, "cell"), "the cell's number");
+  for (const auto& [axis, value] : objectAt(sweep, "asked").items()) textAt(objectAt(sweep, "asked"), axis.c_str());
+  for (const Json& axis : listAt(sweep, "swept"))
+    if (!axis.is_string()) failField("sweep.swept", &axis, "names");
+}
+
+Sample sampleOf(const Json& head, const Json& line) {
+  Sample sample{.round = static_cast<unsigned>(wholeAt(line, "round", head.at("rounds").get<unsigned>() - 1)),
+                .repeat = static_cast<unsigned>(wholeAt(line, "repeat", head.at("repeats").get<unsigned>() - 1)),
+                .session = wholeAt<unsigned>(line, "session"),
+                .times = {.totalNs = wholeAt<std::uint64_t>(line, "total_ns"), .stages = {}},
                 .error = line.value("error", Json())};
-  for (const auto& [stage, ns] : line["stages"].items()) sample.times.stages.emplace_back(stage, ns);
+  for (const auto& [stage, ns] : objectAt(line, "stages").items())
+    sample.times.stages.emplace_back(stage, wholeAt<std::uint64_t>(objectAt(line, "stages"), stage.c_str()));
+  if (!sample.error.is_null()) checkNumbers(line, "error");
   return sample;
 }
 
 void take(Record& record, const Json& line) {
-  const std::string kind = line.at("kind");
+  const std::string& kind = textAt(line, "kind");
   if (kind == "session") {
-    record.sessions = line.at("session").get<unsigned>() + 1;
+    record.sessions = wholeAt<std::uint16_t>(line, "session") + 1u;
     return;
   }
-  CellRecord& cell = record.cells.at(line.at("cell"));
+  if (kind != "cell" && kind != "end" && kind != "sample")
+    failField("kind", &member(line, "kind"), "session, cell, end or sample");
+  const auto found = record.cells.find(wholeAt<std::uint32_t>(line, "cell"));
+  if (found == record.cells.end()) failField("cell", &member(line, "cell"), "one of the head's cells");
+  CellRecord& cell = found->second;
   if (kind == "cell") {
-    cell.row = line.at("row");
-    cell.frameS = line.at("frame_s");
-  } else if (kind == "end") {
-    cell.row["status"] = line.at("status");
-    cell.row["message"] = line.at("message");
-  } else if (kind == "sample") {
-    (line.contains("again") ? cell.again : cell.samples).push_back(sampleOf(line));
+    if (!cell.row.is_null()) failField("cell", &member(line, "cell"), "one that was not checked before");
+    const Json& row = objectAt(line, "row");
+    checkRow(row, record.head.at("schema_version").get<int>());
+    cell.frameS = finiteAt(line, "frame_s");
+    cell.row = row;
+    return;
+  }
+  if (cell.row.is_null()) failField("cell", &member(line, "cell"), "one that a line before has checked");
+  if (kind == "end") {
+    cell.row["status"] = textAt(line, "status");
+    cell.row["message"] = textAt(line, "message");
+    checkRow(cell.row, record.head.at("schema_version").get<int>());
+  } else {
+    const bool again = line.contains("again") && flagAt(line, "again");
+    (again ? cell.again : cell.samples).push_back(sampleOf(record.head, line));
   }
 }
 
 void takeHead(Record& record, const fs::path& path, const Json& line) {
-  const int version = line.at("schema_version");
-  if (line.at("kind") != "head") throw std::out_of_range("head");
-  if (version != kRowSchemaVersion)
+  if (textAt(line, "kind") != "head") failField("kind", &member(line, "kind"), "head");
+  const auto version = wholeAt<std::uint16_t>(line, "schema_version");
+  if (version < kOldestRowSchema || version > kRowSchemaVersion)
     failUsage(
         fmt::format("{}:1: rows of version {}, this program's have {}; the program that began it goes on with it, or a "
                     "new folder begins anew",
                     path.string(), version, kRowSchemaVersion));
+  const Json& sweep = objectAt(line, "sweep");
+  for (const char* const key : {"title", "question", "sha256"}) textAt(sweep, key);
+  flagAt(line, "quick");
+  for (const char* const key : {"rounds", "repeats"})
+    if (wholeAt<std::uint16_t>(line, key) == 0) failField(key, &member(line, key), "a number from 1 on");
+  for (const Json& job : listAt(line, "jobs"))
+    if (!job.is_string()) failField("jobs", &job, "names");
+  for (const Json& cell : listAt(line, "cells")) {
+    const auto number = wholeAt<std::uint32_t>(cell, "cell");
+    if (record.cells.contains(number)) failField("cells", &member(cell, "cell"), "another number for each cell");
+    checkCell(cell);
+    record.cells[number];
+  }
   record.head = line;
-  for (const auto& cell : line.at("cells")) record.cells[cell.at("cell")];
 }
 
 }  // namespace
@@ -67,22 +140,19 @@ fs::path journalOf(const fs::path& folder) { return folder / "journal.jsonl"; }
 
 Record readJournal(const fs::path& folder) {
   const fs::path path = journalOf(folder);
+  if (!fs::is_regular_file(path)) failUsage(fmt::format("{}: is no file; a sweep's journal would be right", path.string()));
   const std::string text = readFile(path);
   Record record;
   std::size_t number = 1;
   for (std::size_t begin = 0, end; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1, ++number) {
     try {
-      const Json line = Json::parse(text.begin() + static_cast<std::ptrdiff_t>(begin),
-                                    text.begin() + static_cast<std::ptrdiff_t>(end));
+      const Json line = parsedLine(std::string_view(text).substr(begin, end - begin));
       if (number == 1)
         takeHead(record, path, line);
       else
         take(record, line);
-    } catch (const Error&) {
-      throw;
-    } catch (const std::exception&) {
-      failUsage(fmt::format("{}:{}: no line of a sweep's journal; a folder that `tessera sweep` has written would do",
-                            path.string(), number));
+    } catch (const WrongField& wrong) {
+      failUsage(fmt::format("{}:{}: no line of a sweep's journal: {}", path.string(), number, wrong.what()));
     }
     record.bytes = end + 1;
   }

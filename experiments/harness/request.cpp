@@ -1,12 +1,20 @@
 #include "experiments/harness/request.h"
 
+#include "experiments/harness/fields.h"
+
 namespace tessera::harness {
 namespace {
 
 Variant variantOf(const Json& json) {
   Variant variant;
-  for (const auto& [axis, value] : json.items()) variant.set(axis, value.get<std::string>());
+  for (const auto& [axis, value] : json.items()) variant.set(axis, textAt(json, axis.c_str()));
   return variant;
+}
+
+const Json& pairAt(const Json& json, const char* key) {
+  const Json& pair = listAt(json, key);
+  if (pair.size() != 2 || !pair[0].is_number() || !pair[1].is_number()) failField(key, &pair, "two numbers");
+  return pair;
 }
 
 Json cellJson(const WorkerCell& cell) {
@@ -20,12 +28,12 @@ Json cellJson(const WorkerCell& cell) {
 }
 
 WorkerCell cellOf(const Json& json) {
-  WorkerCell cell{.number = json["number"],
-                  .size = {json["size"][0], json["size"][1]},
-                  .threads = json["threads"],
-                  .asked = variantOf(json["asked"]),
+  WorkerCell cell{.number = wholeAt<std::uint32_t>(json, "number"),
+                  .size = {pairAt(json, "size")[0], pairAt(json, "size")[1]},
+                  .threads = wholeAt<unsigned>(json, "threads"),
+                  .asked = variantOf(objectAt(json, "asked")),
                   .kernels = {}};
-  for (const auto& [stage, file] : json["kernels"].items()) cell.kernels[stage] = file.get<std::string>();
+  for (const auto& [stage, file] : objectAt(json, "kernels").items()) cell.kernels[stage] = textAt(objectAt(json, "kernels"), stage.c_str());
   return cell;
 }
 
@@ -43,17 +51,17 @@ Json toJson(const WorkerJob& job) {
 }
 
 WorkerJob jobOf(const Json& json) {
-  WorkerJob job{.input = json["input"],
-                .attribute = {json["attribute"], {}},
-                .device = json["device"],
-                .truth = variantOf(json["truth"]),
-                .warmUp = json["warm_up"],
-                .timeLimitS = json["time_limit"],
-                .seed = json["seed"],
-                .folder = json["folder"].get<std::string>(),
+  WorkerJob job{.input = textAt(json, "input"),
+                .attribute = {textAt(json, "attribute"), {}},
+                .device = textAt(json, "device"),
+                .truth = variantOf(objectAt(json, "truth")),
+                .warmUp = wholeAt<unsigned>(json, "warm_up"),
+                .timeLimitS = finiteAt(json, "time_limit"),
+                .seed = wholeAt<std::uint64_t>(json, "seed"),
+                .folder = textAt(json, "folder"),
                 .cells = {}};
-  if (json.contains("range")) job.attribute.range = ValueRange{json["range"][0], json["range"][1]};
-  for (const auto& cell : json["cells"]) job.cells.push_back(cellOf(cell));
+  if (json.contains("range")) job.attribute.range = ValueRange{pairAt(json, "range")[0], pairAt(json, "range")[1]};
+  for (const auto& cell : listAt(json, "cells")) job.cells.push_back(cellOf(cell));
   return job;
 }
 

@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <fstream>
+#include <map>
 #include <tuple>
 
+#include "experiments/harness/fields.h"
 #include "host/error.h"
 #include "host/files.h"
 #include "host/row.h"
@@ -79,11 +82,11 @@ Json rowOf(const Json& head, const CellRecord& cell) {
     if (field == "provenance" || field == "clock") continue;
     row[field] = value;
     if (field != "run_id") continue;
-    row["command"] = head["command"];
-    row["sweep"] = head["sweep"];
+    row["command"] = head.at("command");
+    row["sweep"] = head.at("sweep");
   }
   if (!samples.empty()) row["time_ns"] = timeJson(cell, samples, checked.value("clock", ""));
-  row["provenance"] = checked["provenance"];
+  row["provenance"] = checked.at("provenance");
   return row;
 }
 
@@ -98,14 +101,43 @@ double medianOf(std::vector<double> values) {
 
 std::string rowsText(const Record& record) {
   std::string text;
-  for (const auto& head : record.head["cells"])
-    if (const CellRecord& cell = record.cells.at(head["cell"]); !cell.row.is_null()) text += lineOf(rowOf(head, cell));
+  for (const auto& head : record.head.at("cells"))
+    if (const CellRecord& cell = record.cells.at(head.at("cell")); !cell.row.is_null())
+      text += lineOf(rowOf(head, cell));
   return text;
+}
+
+void checkRowsKept(const std::filesystem::path& folder, const Record& record) {
+  const std::filesystem::path path = folder / "rows.jsonl";
+  std::error_code error;
+  if (!std::filesystem::exists(path, error)) return;
+  if (!std::filesystem::is_regular_file(path, error))
+    failUsage(fmt::format("{}: is no file; the rows of a sweep would be right", path.string()));
+  std::map<std::string, std::size_t> samples;  // by run
+  for (const auto& [number, cell] : record.cells)
+    if (!cell.row.is_null()) samples[textAt(cell.row, "run_id")] = cell.samples.size();
+  std::ifstream file(path);
+  std::size_t number = 0;
+  for (std::string line; std::getline(file, line);) {
+    ++number;
+    try {
+      const Json row = parsedLine(line);
+      const auto found = samples.find(textAt(row, "run_id"));
+      const std::size_t had = row.contains("time_ns") ? listAt(objectAt(row, "time_ns"), "samples").size() : 0;
+      if (found != samples.end() && had <= found->second) continue;
+      failUsage(fmt::format("{}:{}: {} the journal beside it has not; nothing was written: take the journal away to keep "
+                            "these rows, or the rows to make them anew from the journal",
+                            path.string(), number, found == samples.end() ? "a row that" : "samples that"));
+    } catch (const WrongField&) {  // no row is lost with it
+    }
+  }
 }
 
 void deriveRows(const std::filesystem::path& folder) {
   const std::filesystem::path path = folder / "rows.jsonl";
-  if (!writeBeside(path, rowsText(readJournal(folder))))
+  const Record record = readJournal(folder);
+  checkRowsKept(folder, record);
+  if (!writeBeside(path, rowsText(record)))
     fail(fmt::format("{}: could not be written; the journal beside it is whole: --resume writes it once there is room",
                      path.string()));
 }

@@ -10,6 +10,7 @@
 
 #include "datasets/text.h"
 #include "experiments/harness/cells.h"
+#include "experiments/harness/fields.h"
 #include "experiments/harness/folder.h"
 #include "experiments/harness/journal.h"
 #include "experiments/harness/rows.h"
@@ -202,9 +203,9 @@ class Runner {
     planned_[number] = row;
     if (!begun_) return;
     const Json& before = begun_->cells.at(number).row;
-    if (before.is_null() || !before["scene"].contains("sha256")) return;  // it ended before its scene was read
+    if (before.is_null() || !before.at("scene").contains("sha256")) return;  // it ended before its scene was read
     const std::string name = cellName(sweep_, cells_[number]);
-    if (before["scene"].value("sha256", Json()) != row["scene"]["sha256"])
+    if (before.at("scene").at("sha256") != row.at("scene").at("sha256"))
       failUsage(
           fmt::format("{}: its scene is not what it was when this sweep began; the scene as it was resumes it, "
                       "another folder begins anew",
@@ -219,7 +220,7 @@ class Runner {
             name, which, part(before, which), part(row, which)));
     for (const auto& [stage, file] : cells_[number].kernels)
       if (const Json files = before.value("kernel_files", Json::object());
-          files.contains(stage) && files[stage]["sha256"] != sha256(readFile(file)))
+          files.contains(stage) && files.at(stage).at("sha256") != sha256(readFile(file)))
         failUsage(
             fmt::format("{}: {} is not what it was when this sweep began; as it was it resumes it, another folder "
                         "begins anew",
@@ -231,7 +232,7 @@ class Runner {
   void prepare(const Job& job) {
     startWorker(job);
     for (const std::size_t number : job.cells)
-      if (planned_.contains(number)) provenance_[job.name] = planned_[number]["provenance"];
+      if (planned_.contains(number)) provenance_[job.name] = planned_[number].at("provenance");
     if (std::ranges::count_if(jobs_, [&](const Job& j) { return !schedule_.isDone(j); }) > 1) stopWorker();
   }
 
@@ -276,7 +277,7 @@ class Runner {
 
   void record(std::size_t number, const Json& row, double frameS) {
     journal_->append({{"kind", "cell"}, {"cell", number}, {"session", session_}, {"frame_s", frameS}, {"row", row}});
-    schedule_.check(number, row["status"] == "ok", frameS);
+    schedule_.check(number, textAt(row, "status") == "ok", frameS);
   }
 
   /// What there is to say of a cell that ended before its check did.

@@ -12,7 +12,7 @@ Schedule::Schedule(const Sweep& sweep, const std::vector<Cell>& cells, const std
     for (const std::size_t number : job.cells) {
       State& state = states_[number];
       const CellRecord& cell = record.cells.at(number);
-      if (!cell.row.is_null()) check(number, cell.row["status"] == "ok", cell.frameS);
+      if (!cell.row.is_null()) check(number, cell.row.at("status") == "ok", cell.frameS);
       for (const Sample& sample : cell.samples) state.have.emplace(sample.round, sample.repeat);
     }
 }

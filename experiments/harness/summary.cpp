@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 
+#include "experiments/harness/fields.h"
 #include "experiments/harness/rows.h"
 #include "host/cli/table.h"
 #include "host/row.h"
@@ -17,7 +18,7 @@ constexpr std::size_t kMostLines = 40;
 struct Line {
   const Json* head;
   const CellRecord* cell;
-  std::string status() const { return cell->row.is_null() ? "not run" : cell->row["status"].get<std::string>(); }
+  std::string status() const { return cell->row.is_null() ? "not run" : textAt(cell->row, "status"); }
 };
 
 double medianTime(const CellRecord& cell) {
@@ -74,11 +75,11 @@ std::string groupTable(const std::vector<Line>& lines, const std::vector<std::st
   for (const Line& line : lines) {
     const Json& sweep = line.head->at("sweep");
     std::vector<std::string> row;
-    for (const auto& axis : swept) row.push_back(sweep["asked"].value(axis, "-"));
+    for (const auto& axis : swept) row.push_back(objectAt(sweep, "asked").value(axis, "-"));
     if (line.cell->samples.empty()) {
       row.insert(row.end(), {"-", "-", line.status()});
     } else {
-      const bool twin = sweep["twin"];
+      const bool twin = flagAt(sweep, "twin");
       row.push_back(cli::milliseconds(medianTime(*line.cell)));
       row.push_back(reference == lines.end() ? "-" : fmt::format("{:.3f}", ratio(*line.cell, *reference->cell)));
       row.push_back(twin ? "A/A" : errorText(line.cell->row));
@@ -94,26 +95,26 @@ std::string summaryOf(const Record& record, const std::filesystem::path& folder)
   std::map<std::string, std::size_t> counts;
   std::map<std::size_t, std::vector<Line>> groups;
   std::string notes;
-  for (const auto& head : record.head["cells"]) {
-    const Line line{&head, &record.cells.at(head["cell"])};
+  for (const auto& head : record.head.at("cells")) {
+    const Line line{&head, &record.cells.at(head.at("cell"))};
     ++counts[line.status()];
-    groups[head["sweep"]["group"]].push_back(line);
+    groups[head.at("sweep").at("group")].push_back(line);
     if (const std::string message = line.cell->row.is_null() ? "" : line.cell->row.value("message", "");
         !message.empty())
-      notes += fmt::format("{} ({}): {}: {}\n", head["cell"].get<std::size_t>(), head["name"].get<std::string>(),
+      notes += fmt::format("{} ({}): {}: {}\n", head.at("cell").get<std::size_t>(), head.at("name").get<std::string>(),
                            line.status(), message);
   }
-  std::string text = fmt::format("{}: {} cells", record.head["sweep"]["title"].get<std::string>(),
-                                 cli::grouped(record.head["cells"].size()));
+  std::string text = fmt::format("{}: {} cells", record.head.at("sweep").at("title").get<std::string>(),
+                                 cli::grouped(record.head.at("cells").size()));
   for (const auto& [status, count] : counts) text += fmt::format(", {} {}", count, status);
   text += '\n' + notes;
 
-  const std::size_t tableLines = record.head["cells"].size() + 4 * groups.size();
+  const std::size_t tableLines = record.head.at("cells").size() + 4 * groups.size();
   if (tableLines <= kMostLines)
     for (const auto& [number, lines] : groups) {
       const Json& sweep = lines.front().head->at("sweep");
       std::vector<std::string> swept;
-      for (const auto& axis : sweep["swept"]) swept.push_back(axis);
+      for (const auto& axis : sweep.at("swept")) swept.push_back(axis);
       text += fmt::format("\n{}\n{}", groupName(lines.front()), groupTable(lines, swept));
     }
   return text + fmt::format("\nrows are in {}; tessera report {} makes the page\n", (folder / "rows.jsonl").string(),

@@ -12,6 +12,7 @@
 #include <cstring>
 #include <utility>
 
+#include "experiments/harness/fields.h"
 #include "host/error.h"
 
 extern char** environ;
@@ -131,10 +132,14 @@ std::optional<Json> WorkerProcess::receive() {
   for (;;) {
     if (interrupts_.came()) throw Interrupted{};
     if (const std::size_t end = pending_.find('\n'); end != std::string::npos) {
-      Json message = Json::parse(pending_.substr(0, end), nullptr, false);
-      if (message.is_discarded()) fail("sweep: a worker's message cannot be read: " + pending_.substr(0, end));
-      pending_.erase(0, end + 1);
-      return message;
+      try {
+        Json message = parsedLine(std::string_view(pending_).substr(0, end));
+        textAt(message, "event");
+        pending_.erase(0, end + 1);
+        return message;
+      } catch (const WrongField& wrong) {
+        fail(fmt::format("sweep: a worker's message cannot be read: {}", wrong.what()));
+      }
     }
     pollfd wanted[] = {{out_, POLLIN, 0}, {interrupts_.descriptor(), POLLIN, 0}};
     if (poll(wanted, 2, -1) < 0 && errno != EINTR) fail(fmt::format("sweep: poll: {}", std::strerror(errno)));

@@ -15,6 +15,7 @@
 #include <set>
 
 #include "experiments/harness/check.h"
+#include "experiments/harness/fields.h"
 #include "experiments/harness/request.h"
 #include "experiments/harness/watchdog.h"
 #include "host/cli/common.h"
@@ -87,11 +88,12 @@ class Worker {
   }
 
   void serve(const Json& request) {
-    const WorkerCell& cell = *cells_.at(request["cell"]);
-    if (request["do"] == "check")
-      check(cell);
+    const auto found = cells_.find(wholeAt<std::uint32_t>(request, "cell"));
+    if (found == cells_.end()) failField("cell", &member(request, "cell"), "one of the job's cells");
+    if (textAt(request, "do") == "check")
+      check(*found->second);
     else
-      time(cell, request["warm"]);
+      time(*found->second, flagAt(request, "warm"));
   }
 
  private:
@@ -208,15 +210,17 @@ int serveWorker() {
   try {
     std::string line;
     if (!std::getline(std::cin, line)) return 0;
-    Worker worker(jobOf(Json::parse(line)), out);
+    Worker worker(jobOf(parsedLine(line)), out);
     worker.prepare();
     send(out, {{"event", "ready"}});
-    while (std::getline(std::cin, line)) worker.serve(Json::parse(line));
+    while (std::getline(std::cin, line)) worker.serve(parsedLine(line));
     return 0;
   } catch (const Error& error) {
     return failed(error.code(), error.what());
   } catch (const std::bad_alloc&) {
     return failed(ExitCode::kFailure, "out of memory: a smaller size or scene would fit");
+  } catch (const WrongField& wrong) {
+    return failed(ExitCode::kFailure, std::string("sweep-worker: a message's ") + wrong.what());
   } catch (const std::exception& error) {
     return failed(ExitCode::kFailure, error.what());
   }
