@@ -1,15 +1,14 @@
 #include "datasets/attribute.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "host/error.h"
+#include "host/suggest.h"
 
 namespace tessera {
 
 void failAttribute(const std::string& place, const std::string& name, const std::vector<std::string>& present) {
-  failUsage(fmt::format("{}: no attribute '{}'; there {} {}", place, name, present.size() == 1 ? "is" : "are",
-                        present.empty() ? "none" : fmt::format("{}", fmt::join(present, ", "))));
+  failUsage(fmt::format("{}: no attribute '{}'; {}", place, name, whatThereIs(name, present)));
 }
 
 void setCoordinates(Scene& scene, const AttributeRequest& attribute) {

@@ -7,6 +7,7 @@
 #include "datasets/generators.h"
 #include "datasets/text.h"
 #include "host/error.h"
+#include "host/suggest.h"
 
 namespace tessera {
 namespace {
@@ -37,9 +38,9 @@ ParsedGenerator parseGenerator(std::string_view spec) {
   const auto& all = generators();
   const auto found = std::ranges::find(all, name, &Generator::name);
   if (found == all.end()) {
-    std::vector<std::string_view> names;
-    for (const Generator& generator : all) names.push_back(generator.name);
-    failUsage(fmt::format("generate:{}: no such generator; {} would be right", name, fmt::join(names, ", ")));
+    const auto names = namesOf(all, &Generator::name);
+    if (name.empty()) failUsage(fmt::format("generate: of what? There are {}", fmt::join(names, ", ")));
+    failUsage(fmt::format("generate:{}: no such generator; {}", name, whatThereIs(name, names)));
   }
   ParsedGenerator parsed{&*found, {}};
   for (const auto& p : found->parameters) parsed.values.push_back(p.initial);
@@ -50,12 +51,14 @@ ParsedGenerator parseGenerator(std::string_view spec) {
     rest.remove_prefix(std::min(setting.size() + 1, rest.size()));
     const std::size_t equals = setting.find('=');
     const auto parameter = std::ranges::find(found->parameters, setting.substr(0, equals), &GeneratorParameter::name);
-    if (parameter == found->parameters.end() || equals == setting.npos) {
-      std::vector<std::string_view> names;
-      for (const auto& p : found->parameters) names.push_back(p.name);
-      failUsage(
-          fmt::format("generate:{}: '{}' is not key=value with a key of {}", name, setting, fmt::join(names, ", ")));
+    if (parameter == found->parameters.end()) {
+      const auto names = namesOf(found->parameters, &GeneratorParameter::name);
+      failUsage(fmt::format("generate:{}: no parameter '{}'; {}", name, setting.substr(0, equals),
+                            whatThereIs(setting.substr(0, equals), names)));
     }
+    if (equals == setting.npos)
+      failUsage(fmt::format("generate:{}: '{}' has no value; {}=VALUE of {} would be right", name, setting, setting,
+                            rangeText(*parameter)));
     const auto at = static_cast<std::size_t>(parameter - found->parameters.begin());
     if (given[at]) failUsage(fmt::format("generate:{}: {} is given twice", name, parameter->name));
     given[at] = true;

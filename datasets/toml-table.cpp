@@ -1,13 +1,13 @@
 #include "datasets/toml-table.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "host/error.h"
+#include "host/suggest.h"
 
 namespace tessera {
 namespace {
@@ -31,7 +31,8 @@ TomlTable::TomlTable(const std::string& file, const toml::table& table, std::str
     : TomlTable(file, table, std::move(path)) {
   for (const auto& [key, node] : entries())
     if (std::ranges::find(keys, key.str()) == keys.end())
-      fail(key.source(), fmt::format("{} has no key '{}'; {} would be right", name, key.str(), fmt::join(keys, ", ")));
+      fail(key.source(), fmt::format("{} has no key '{}'; {}", name, key.str(),
+                                     whatThereIs(key.str(), {keys.begin(), keys.end()})));
 }
 
 const toml::node& TomlTable::need(std::string_view key, std::string_view what) const {

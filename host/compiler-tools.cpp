@@ -10,12 +10,14 @@
 
 #include "host/error.h"
 #include "host/files.h"
-#include "host/home.h"
 #include "host/spirv.h"
 #include "host/subprocess.h"
 
 #ifndef TESSERA_CXX
 #define TESSERA_CXX "g++"
+#endif
+#ifndef TESSERA_TOOLS_DIR
+#define TESSERA_TOOLS_DIR ""
 #endif
 
 namespace tessera {
@@ -106,7 +108,7 @@ std::string ToolMemory::recall(const std::string& question, const fs::path& prog
   return answer;
 }
 
-ToolInfo chooseSlangc(ToolMemory& memory, const fs::path& pinned) {
+ToolInfo chooseSlangc(ToolMemory& memory) {
   const auto fault = [&](const fs::path& path) -> std::string {
     try {
       memory.recall("check", path, [&] { return checkSlangc(path); });
@@ -141,12 +143,9 @@ ToolInfo chooseSlangc(ToolMemory& memory, const fs::path& pinned) {
     if (why.empty()) return chosen(path, "PATH");
     rejected = fmt::format(" ({} in PATH: {})", path.string(), why);
   }
-  if (access(pinned.c_str(), X_OK) != 0)
-    failUsage(home().installed
-                  ? fmt::format("no slangc{}: {} is not there; set SLANGC to a slangc of Slang 2026.14.1 or later, or "
-                                "install again from a clone in which `./dev build` ran",
-                                rejected, pinned.string())
-                  : fmt::format("no slangc{}: `./dev build` fetches one, or set SLANGC to yours", rejected));
+  const fs::path pinned = fs::path(TESSERA_TOOLS_DIR) / "slangc";
+  if (*TESSERA_TOOLS_DIR == '\0' || access(pinned.c_str(), X_OK) != 0)
+    failUsage(fmt::format("no slangc{}: `./dev build` fetches one, or set SLANGC to yours", rejected));
   if (const std::string why = fault(pinned); !why.empty())
     failUsage(fmt::format("{}: {}; remove it and run `./dev build`, or set SLANGC to yours", pinned.string(), why));
   return chosen(pinned, "tools");
@@ -154,14 +153,11 @@ ToolInfo chooseSlangc(ToolMemory& memory, const fs::path& pinned) {
 
 CxxInfo resolveCxx(ToolMemory& memory) {
   CxxInfo info;
-  const std::string chosen = environment("TESSERA_CXX"), wanted = chosen.empty() ? TESSERA_CXX : chosen;
-  info.path = findProgram(wanted);
+  info.path = findProgram(TESSERA_CXX);
   if (info.path.empty() || access(info.path.c_str(), X_OK) != 0)
-    failUsage(chosen.empty()
-                  ? fmt::format("{}: no C++ compiler is there, and kernels for the CPU need one: install it (Debian: "
-                                "g++), or set TESSERA_CXX to yours",
-                                wanted)
-                  : fmt::format("TESSERA_CXX={}: no such program; a g++ or clang++ would be right", chosen));
+    fail(fmt::format(
+        "{}: the C++ compiler of this build is not here any more; CPU kernels need it: install it or build again",
+        TESSERA_CXX));
   const std::string compiler = info.path.string();
   const std::string machine = "|" + processorIdentity();
   info.targetMacros = memory.recall("macros" + machine, info.path, [&] {
@@ -199,12 +195,8 @@ fs::path defaultCacheFolder() {
 
 std::string cpuDriverText() {
   ToolMemory memory(defaultCacheFolder());
-  try {
-    const CxxInfo cxx = resolveCxx(memory);
-    return fmt::format("{}, {}", cxx.version, cxx.target);
-  } catch (const Error&) {
-    return "no C++ compiler";
-  }
+  const CxxInfo cxx = resolveCxx(memory);
+  return fmt::format("{}, {}", cxx.version, cxx.target);
 }
 
 }  // namespace tessera

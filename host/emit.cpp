@@ -9,6 +9,7 @@
 #include "host/files.h"
 #include "host/slang-compiler.h"
 #include "host/slang-sources.h"
+#include "host/suggest.h"
 
 namespace tessera {
 namespace {
@@ -43,9 +44,8 @@ const std::vector<EmitTarget>& emitTargets() {
 const EmitTarget& emitTarget(std::string_view name) {
   const auto found = std::ranges::find(emitTargets(), name, &EmitTarget::name);
   if (found != emitTargets().end()) return *found;
-  std::vector<std::string> names;
-  for (const EmitTarget& target : emitTargets()) names.push_back(target.name);
-  failUsage(fmt::format("--emit {}: no such target; there are {}", name, fmt::join(names, ", ")));
+  failUsage(fmt::format("--emit {}: no such target; {}", name,
+                        whatThereIs(name, namesOf(emitTargets(), &EmitTarget::name))));
 }
 
 Emitted emitKernel(KernelCache& cache, const KernelRequest& request, const EmitTarget& target) {

@@ -145,7 +145,11 @@ Spread spread(std::vector<std::uint64_t> sample) {
     const auto at = [&](std::size_t i) { return static_cast<double>(sample[i]); };
     return at(low) + (place - static_cast<double>(low)) * (at(high) - at(low));
   };
-  return {quantile(0.5), quantile(0), quantile(0.75) - quantile(0.25)};
+  return {quantile(0.5), quantile(0), quantile(0.75) - quantile(0.25), quantile(1), sample.size()};
+}
+
+double Spread::medianError() const {
+  return median > 0 ? 1.57 * iqr / std::sqrt(static_cast<double>(count)) / median : 0;
 }
 
 Spread totalSpread(const std::vector<FrameTimes>& samples) {

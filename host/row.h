@@ -46,7 +46,13 @@ struct Run {
 
 /// Order statistics of a sample, linear between neighbours; nanoseconds. All 0 for an empty sample.
 struct Spread {
-  double median = 0, min = 0, iqr = 0;
+  double median = 0, min = 0, iqr = 0, max = 0;
+  std::size_t count = 0;
+
+  /// How far the median may be off, as a share of it: 1.57 interquartile ranges over the square root of the count, the
+  /// notch of McGill, Tukey and Larsen, Variations of box plots, 1978. Medians of two samples whose notches do not
+  /// overlap differ at the 95 % level. Of a sample of one it says nothing, and is 0.
+  double medianError() const;
 };
 Spread spread(std::vector<std::uint64_t> sample);
 Spread totalSpread(const std::vector<FrameTimes>& samples);  ///< of the frames' total times

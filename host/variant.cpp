@@ -8,6 +8,7 @@
 
 #include "host/counters.h"
 #include "host/error.h"
+#include "host/suggest.h"
 
 namespace tessera {
 namespace {
@@ -35,18 +36,15 @@ AxisKind Axis::kind() const {
 const Axis& axis(std::string_view name) {
   const auto found = std::ranges::find(axes(), name, &Axis::name);
   if (found != axes().end()) return *found;
-  std::vector<std::string_view> names;
-  for (const Axis& a : axes()) names.push_back(a.name);
-  failUsage(fmt::format("--set {}: no such axis; there are {}", name, fmt::join(names, ", ")));
+  failUsage(fmt::format("--set {}: no such axis; {}", name, whatThereIs(name, namesOf(axes(), &Axis::name))));
 }
 
 const AxisValue& axisValue(std::string_view axisName, std::string_view name) {
   const Axis& a = axis(axisName);
   const auto found = std::ranges::find(a.values, name, &AxisValue::name);
   if (found != a.values.end()) return *found;
-  std::vector<std::string_view> names;
-  for (const AxisValue& value : a.values) names.push_back(value.name);
-  failUsage(fmt::format("--set {}={}: no such value; there are {}", a.name, name, fmt::join(names, ", ")));
+  failUsage(fmt::format("--set {}={}: no such value; {}", a.name, name,
+                        whatThereIs(name, namesOf(a.values, &AxisValue::name))));
 }
 
 Variant::Variant(std::initializer_list<std::pair<std::string_view, std::string_view>> settings) {
@@ -62,7 +60,14 @@ void Variant::set(std::string_view name, std::string_view value) {
 
 void Variant::set(std::string_view assignment) {
   const auto equals = assignment.find('=');
-  if (equals == std::string_view::npos) failUsage(fmt::format("--set {}: takes axis=value", assignment));
+  if (assignment.empty()) failUsage("--set '': takes axis=value");
+  if (equals == std::string_view::npos) {
+    const Axis& a = axis(assignment);
+    failUsage(a.values.empty()
+                  ? fmt::format("--set {0}: has no value; {0}={1} to {0}={2} would be right", a.name, a.least, a.most)
+                  : fmt::format("--set {0}: has no value; {0}={1} would be right", a.name,
+                                fmt::join(namesOf(a.values, &AxisValue::name), " or ")));
+  }
   set(assignment.substr(0, equals), assignment.substr(equals + 1));
 }
 

@@ -1,28 +1,22 @@
 #include "experiments/harness/axis-values.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 
 #include "datasets/text.h"
 #include "host/error.h"
+#include "host/suggest.h"
 
 namespace tessera::harness {
 namespace {
 
 constexpr std::size_t kMaxValues = 1000;
 
-std::vector<std::string> names(const auto& things, auto name) {
-  std::vector<std::string> all;
-  for (const auto& thing : things) all.push_back(thing.*name);
-  return all;
-}
-
 const Axis& axisOf(const TomlTable& table, const toml::key& key) {
   const auto found = std::ranges::find(axes(), key.str(), &Axis::name);
   if (found == axes().end())
-    table.refuseKey(key, fmt::format("no such axis; there are {}", fmt::join(names(axes(), &Axis::name), ", ")));
+    table.refuseKey(key, fmt::format("no such axis; {}", whatThereIs(key.str(), namesOf(axes(), &Axis::name))));
   return *found;
 }
 
@@ -45,7 +39,7 @@ std::string checkedValue(const TomlTable& table, const Axis& axis, const toml::n
   if (std::ranges::find(axis.values, text, &AxisValue::name) == axis.values.end())
     table.refuse(
         axis.name, node,
-        fmt::format("no value '{}'; there are {}", text, fmt::join(names(axis.values, &AxisValue::name), ", ")));
+        fmt::format("no value '{}'; {}", text, whatThereIs(text, namesOf(axis.values, &AxisValue::name))));
   return text;
 }
 
@@ -107,13 +101,13 @@ std::vector<std::string> readChosen(const TomlTable& table, const TomlTable::Ent
   const auto axis = std::ranges::find(swept, key, &SweptAxis::axis);
   if (axis == swept.end())
     table.refuseKey(entry.key, swept.empty() ? "nothing varies; an axis under [axes] would be right"
-                                             : fmt::format("does not vary in this sweep; {} would be right",
-                                                           fmt::join(names(swept, &SweptAxis::axis), ", ")));
+                                             : fmt::format("does not vary in this sweep; {}",
+                                                           whatThereIs(key, namesOf(swept, &SweptAxis::axis))));
   std::vector<std::string> values;
   const auto add = [&](const toml::node& node) {
     const std::string value = textOf(table, key, node);
     if (std::ranges::find(axis->values, value) == axis->values.end())
-      table.refuse(key, node, fmt::format("no cell has '{}'; there are {}", value, fmt::join(axis->values, ", ")));
+      table.refuse(key, node, fmt::format("no cell has '{}'; {}", value, whatThereIs(value, axis->values)));
     addOnce(table, key, node, values, value);
   };
   if (!entry.node.is_array()) return add(entry.node), values;

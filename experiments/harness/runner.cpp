@@ -21,6 +21,7 @@
 #include "host/error.h"
 #include "host/files.h"
 #include "host/row.h"
+#include "host/suggest.h"
 
 namespace tessera::harness {
 namespace {
@@ -72,7 +73,7 @@ std::vector<Job> chosenJobs(const std::vector<Job>& jobs, const std::vector<std:
   for (const Job& job : jobs) known.push_back(job.name);
   for (const auto& name : names)
     if (std::ranges::find(known, name) == known.end())
-      failUsage(fmt::format("--job {}: no such job; there are {}", name, fmt::join(known, ", ")));
+      failUsage(fmt::format("--job {}: no such job; {}", name, whatThereIs(name, known)));
   std::vector<Job> chosen;
   for (const Job& job : jobs)
     if (std::ranges::find(names, job.name) != names.end()) chosen.push_back(job);

@@ -17,6 +17,7 @@
 #include "experiments/harness/report-keys.h"
 #include "host/error.h"
 #include "host/stages.h"
+#include "host/suggest.h"
 #include "host/user-kernel.h"
 
 namespace tessera::harness {
@@ -222,9 +223,7 @@ std::vector<SweptKernel> readKernels(const TomlTable& table, const fs::path& fol
   std::vector<SweptKernel> kernels;
   for (const auto& [key, node] : table.entries()) {
     if (std::ranges::find(stages(), key.str(), &Stage::name) == stages().end()) {
-      std::vector<std::string> names;
-      for (const Stage& stage : stages()) names.push_back(stage.name);
-      table.refuseKey(key, fmt::format("no such stage; there are {}", fmt::join(names, ", ")));
+      table.refuseKey(key, fmt::format("no such stage; {}", whatThereIs(key.str(), namesOf(stages(), &Stage::name))));
     }
     SweptKernel kernel{std::string(key.str()), {}, {}};
     for (const toml::node& element : *table.list(key.str(), "a list such as [\"\", \"mine.comp\"]")) {
@@ -290,7 +289,7 @@ Variant readTruth(const TomlTable& top) {
   for (const TomlTable::Entry& entry : table.entries())
     if (std::ranges::find(names, entry.key.str()) == names.end())
       table.refuseKey(entry.key,
-                      fmt::format("does not change what is right; {} would be right", fmt::join(names, ", ")));
+                      fmt::format("does not change what is right; {}", whatThereIs(entry.key.str(), names)));
   return readVariant(table);
 }
 
@@ -346,7 +345,9 @@ void readQuick(const TomlTable& top, Sweep& sweep, bool quick) {
     for (const toml::node& node : *list) {
       const std::string name = textOf(table, "scenes", node, "a scene's name in quotes");
       if (std::ranges::find(sweep.scenes, name, &SweepScene::name) == sweep.scenes.end())
-        table.refuse("scenes", node, fmt::format("no scene '{}' under [scenes]", name));
+        table.refuse("scenes", node,
+                     fmt::format("no scene '{}' under [scenes]; {}", name,
+                                 whatThereIs(name, namesOf(sweep.scenes, &SweepScene::name))));
       addOnce(table, "scenes", node, names, name);
     }
     std::erase_if(changed.scenes,

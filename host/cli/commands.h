@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <string>
 
 #include "host/error.h"
 
@@ -24,6 +25,8 @@ Command addKernels(CLI::App& app);
 Command addExpand(CLI::App& app);
 Command addSweep(CLI::App& app);
 Command addReport(CLI::App& app);
+Command addHelp(CLI::App& app);
+Command addVersion(CLI::App& app, const std::string& version);
 Command addSweepWorker(CLI::App& app);  ///< hidden: what `sweep` starts for each job
 
 }  // namespace tessera::cli

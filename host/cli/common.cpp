@@ -10,10 +10,13 @@
 #include <cstdio>
 
 #include "datasets/input.h"
+#include "datasets/text.h"
+#include "host/cli/progress.h"
 #include "host/cpu/cpu-device.h"
 #include "host/error.h"
 #include "host/files.h"
 #include "host/stages.h"
+#include "host/suggest.h"
 #include "host/user-kernel.h"
 #include "host/vulkan/vulkan-device.h"
 
@@ -26,20 +29,23 @@ struct Size {
   std::uint32_t width, height;
 };
 
+/// "1024", "1024x768", "1024X768".
 Size parseSize(const std::string& text) {
   Size size{};
   const char* const end = text.data() + text.size();
   const auto [cross, first] = std::from_chars(text.data(), end, size.width);
-  bool good = first == std::errc{} && cross != end && *cross == 'x';
-  if (good) {
+  size.height = size.width;
+  bool good = first == std::errc{};
+  if (good && cross != end) {
     const auto [rest, second] = std::from_chars(cross + 1, end, size.height);
-    good = second == std::errc{} && rest == end;
+    good = (*cross == 'x' || *cross == 'X') && second == std::errc{} && rest == end;
   }
   const auto inRange = [](std::uint32_t extent) { return extent >= 1 && extent <= kMaxExtent; };
   if (!good || !inRange(size.width) || !inRange(size.height))
-    failUsage(
-        fmt::format("--size {}: not a raster size; WIDTHxHEIGHT with 1 to {} pixels each, e.g. 2048x1024, would be",
-                    text, kMaxExtent));
+    failUsage(fmt::format(
+        "--size {}: not a raster size; WIDTHxHEIGHT, or one number for a square, of 1 to {} pixels each would be right, "
+        "e.g. 2048x1024",
+        text, kMaxExtent));
   return size;
 }
 
@@ -57,17 +63,38 @@ ValueRange parseRange(const std::string& text) {
   return range;
 }
 
+/// Which there are, and which of them may have been meant: a part of an adapter's name without "vulkan:", too.
+[[noreturn]] void failDevice(const std::string& name) {
+  std::vector<std::string> names{"cpu"}, known{"cpu"};
+  std::string part;
+  for (const VulkanAdapter& adapter : listVulkanAdapters()) {
+    names.push_back(fmt::format("vulkan:{}", adapter.index));
+    known.push_back(fmt::format("vulkan:{} ({})", adapter.index, adapter.name));
+    if (lowerCase(name) == "gpu") part = "vulkan";
+    if (!name.empty() && lowerCase(adapter.name).find(lowerCase(name)) != std::string::npos) part = "vulkan:" + name;
+  }
+  if (part.empty()) part = nearest(name, names);
+  failUsage(fmt::format("--device {}: no such device; {}there {} {}", name,
+                        part.empty() ? "" : fmt::format("did you mean {}? Otherwise ", part),
+                        known.size() == 1 ? "is" : "are", fmt::join(known, ", ")));
+}
+
 }  // namespace
 
 void addInput(CLI::App& app, Options& options) {
   app.add_option("INPUT", options.input,
-                 "a mesh (.obj .off .ply .stl), a generator, a scene (.toml) or a replay file (.replay)")
+                 "a mesh (.obj .off .ply .stl), mesh:NAME, generate:NAME, a scene (.toml) or a replay file (.replay)")
       ->required();
-  app.add_option("--size", options.size, "raster size in pixels; the scene's own if not given")->type_name("WxH");
+  app.add_option("--size", options.size,
+                 fmt::format("raster size in pixels, 1 to {} each, or one number for a square; if not given the scene's "
+                             "own, 1024 x 1024 for a mesh",
+                             kMaxExtent))
+      ->type_name("WxH");
 }
 
 void addSettings(CLI::App& app, Options& options) {
-  app.add_option("--set", options.settings, "fix one axis; repeat for more; what is not set is the plan's choice")
+  app.add_option("--set", options.settings,
+                 "set an axis; more of them with commas between, or by more --set; what is not set is the plan's choice")
       ->type_name("AXIS=VALUE")
       ->allow_extra_args(false);
 }
@@ -94,16 +121,35 @@ void addAttribute(CLI::App& app, Options& options) {
 }
 
 void addThreads(CLI::App& app, Options& options) {
-  app.add_option("--threads", options.threads, "threads of the CPU device; all cores if not given")
+  addCount(app, "--threads", options.threads, 1, 4096, "threads of the CPU device; all cores if not given");
+}
+
+CLI::Option* addCount(CLI::App& app, const std::string& name, unsigned& count, unsigned least, unsigned most,
+                      const std::string& text) {
+  const auto check = [least, most](std::string& typed) -> std::string {
+    unsigned number = 0;
+    const char* const end = typed.data() + typed.size();
+    const auto [rest, error] = std::from_chars(typed.data(), end, number);
+    if (error == std::errc{} && rest == end && number >= least && number <= most) return "";
+    return fmt::format("{} is no whole number from {} to {}", typed, least, most);
+  };
+  return app.add_option(name, count, fmt::format("{}, {} to {}", text, least, most))
       ->type_name("N")
-      ->check(CLI::Range(1, 4096));
+      ->check(CLI::Validator(check, "", "whole number"));
 }
 
 void addRepeat(CLI::App& app, unsigned& repeat) {
-  app.add_option("--repeat", repeat, "time N frames, after one that warms up")
-      ->type_name("N")
-      ->check(CLI::Range(1, 1000000))
-      ->capture_default_str();
+  addCount(app, "--repeat", repeat, 1, 1000000, "frames to time, after one that warms up")->capture_default_str();
+}
+
+void addQuiet(CLI::App& app, bool& quiet) {
+  app.add_flag_callback(
+      "-q,--quiet",
+      [&quiet] {
+        quiet = true;
+        Progress::silence();
+      },
+      "no progress and no summary; warnings and errors stay");
 }
 
 void addDevice(CLI::App& app, Options& options, bool many) {
@@ -112,9 +158,27 @@ void addDevice(CLI::App& app, Options& options, bool many) {
   if (!many) option->expected(1);
 }
 
+std::vector<std::string> settingsOf(const Options& options) {
+  std::vector<std::string> settings;
+  for (const std::string& typed : options.settings) {
+    std::string_view rest = typed;
+    do {  // no value holds a comma or a blank
+      const std::string_view setting = rest.substr(0, rest.find_first_of(", "));
+      const bool first = setting.data() == typed.data();
+      rest.remove_prefix(std::min(setting.size() + 1, rest.size()));
+      if (setting.empty() && !first) continue;
+      if (!first && setting.find('=') == setting.npos)
+        failUsage(fmt::format("--set {}: '{}' has no axis; AXIS=VALUE,AXIS=VALUE would be right, with one value an axis",
+                              typed, setting));
+      settings.emplace_back(setting);
+    } while (!rest.empty());
+  }
+  return settings;
+}
+
 Variant variantOf(const Options& options) {
   Variant variant;
-  for (const auto& setting : options.settings) {
+  for (const auto& setting : settingsOf(options)) {
     const std::string name = setting.substr(0, setting.find('='));
     if (variant.has(name)) failUsage(fmt::format("--set {}: {} is set twice; once would do", setting, name));
     variant.set(setting);
@@ -129,11 +193,8 @@ KernelFiles kernelFilesOf(const Options& options) {
     if (equals == std::string::npos) failUsage(fmt::format("--kernel {}: takes STAGE=FILE", text));
     const std::string stage = text.substr(0, equals);
     const fs::path file = text.substr(equals + 1);
-    if (std::ranges::find(stages(), stage, &Stage::name) == stages().end()) {
-      std::vector<std::string> names;
-      for (const Stage& s : stages()) names.push_back(s.name);
-      failUsage(fmt::format("--kernel {}: no such stage; there are {}", text, fmt::join(names, ", ")));
-    }
+    if (std::ranges::find(stages(), stage, &Stage::name) == stages().end())
+      failUsage(fmt::format("--kernel {}: no such stage; {}", text, whatThereIs(stage, namesOf(stages(), &Stage::name))));
     std::error_code ignored;
     if (!fs::is_regular_file(file, ignored)) failUsage(fmt::format("--kernel {}: no such file", text));
     languageOf(file);
@@ -157,8 +218,7 @@ std::unique_ptr<Device> openDevice(const std::string& name, unsigned threads) {
   if (name == "cpu") return makeCpuDevice({.threads = threads});
   VulkanOptions vulkan;
   if (name.starts_with("vulkan:")) vulkan.select = name.substr(7);
-  if (name != "vulkan" && vulkan.select.empty())
-    failUsage(fmt::format("--device {}: no such device; cpu, vulkan, vulkan:N or vulkan:NAME would be", name));
+  if (name != "vulkan" && vulkan.select.empty()) failDevice(name);
 #ifdef TESSERA_VALIDATION
   vulkan.validation = true;
 #endif
@@ -174,7 +234,7 @@ std::unique_ptr<Device> openDevice(const Options& options) {
 
 std::vector<std::string> presentDevices() {
   std::vector<std::string> names{"cpu"};
-  for (const auto& adapter : listVulkanAdapters().adapters)
+  for (const auto& adapter : listVulkanAdapters())
     if (adapter.whyNot.empty()) names.push_back(fmt::format("vulkan:{}", adapter.index));
   return names;
 }
@@ -182,27 +242,6 @@ std::vector<std::string> presentDevices() {
 Route routeOf(const DeviceInfo& device, const Variant& variant) {
   if (device.api == "cpu") return Route::kCpp;
   return variant.get("route", "spirv") == "glsl" ? Route::kGlsl : Route::kSpirv;
-}
-
-std::string axesHelp() {
-  std::string text = "Axes for --set ('tessera variants' says more):\n";
-  for (const auto& axis : axes()) {
-    std::vector<std::string> values;
-    for (const auto& value : axis.values) values.push_back(value.name);
-    const std::string range =
-        values.empty() ? fmt::format("{} to {}", axis.least, axis.most) : fmt::format("{}", fmt::join(values, ", "));
-    text += fmt::format("  {:<14} {}\n", axis.name, range);
-  }
-  return text;
-}
-
-std::string inputHelp() {
-  std::string text =
-      "An installed mesh: INPUT is mesh:NAME, e.g. mesh:refined_elephant (Debian's libcgal-demo has it)\n"
-      "Generators (INPUT is generate:NAME or generate:NAME?KEY=VALUE&KEY=VALUE):\n";
-  for (const auto& doc : generatorDocs())
-    text += fmt::format("  {:<10} {}\n  {:<10} {}\n", doc.name, doc.makes, "", doc.parameters);
-  return text;
 }
 
 void checkOutputPath(const fs::path& path, const std::string& input) {

@@ -18,12 +18,13 @@ namespace tessera::cli {
 /// Options as they were typed. Each command adds those that it takes.
 struct Options {
   std::string input;
-  std::string size;                   ///< "WxH"; empty: the scene's
-  std::vector<std::string> settings;  ///< "axis=value"
+  std::string size;                   ///< "WxH" or "W"; empty: the scene's
+  std::vector<std::string> settings;  ///< "axis=value", or more of them with commas or blanks between
   std::vector<std::string> kernels;   ///< "STAGE=FILE"
   std::vector<std::string> devices;   ///< "cpu", "vulkan", "vulkan:N", "vulkan:NAME"
   std::string attribute, range;       ///< its name; "A,B"
   unsigned threads = 0;               ///< of the CPU device; 0: all cores
+  bool quiet = false;                 ///< no progress and no summary
 };
 
 void addInput(CLI::App& app, Options& options);
@@ -31,10 +32,16 @@ void addSettings(CLI::App& app, Options& options);
 void addAttribute(CLI::App& app, Options& options);
 void addKernelFiles(CLI::App& app, Options& options);
 void addThreads(CLI::App& app, Options& options);
+/// A whole number from `least` to `most`; another one gets a message that names the two.
+CLI::Option* addCount(CLI::App& app, const std::string& name, unsigned& count, unsigned least, unsigned most,
+                      const std::string& text);
 void addRepeat(CLI::App& app, unsigned& repeat);
 /// `many`: the option may be repeated.
 void addDevice(CLI::App& app, Options& options, bool many);
+void addQuiet(CLI::App& app, bool& quiet);
 
+/// Each setting alone, as "axis=value".
+std::vector<std::string> settingsOf(const Options& options);
 Variant variantOf(const Options& options);
 /// The user's kernels, of which each file is there and in a language that we know. Throws kUsage.
 KernelFiles kernelFilesOf(const Options& options);
@@ -42,6 +49,7 @@ KernelFiles kernelFilesOf(const Options& options);
 AttributeRequest attributeOf(const Options& options);
 /// Loads the input and its attribute; a size that was given replaces the scene's, and its camera follows.
 Scene sceneOf(const Options& options);
+/// Throws kUsage for a name that no device has, naming those here.
 std::unique_ptr<Device> openDevice(const std::string& name, unsigned threads);
 /// The one device of a command that takes one: the CPU unless another was named.
 std::unique_ptr<Device> openDevice(const Options& options);
@@ -49,10 +57,6 @@ std::unique_ptr<Device> openDevice(const Options& options);
 std::vector<std::string> presentDevices();
 /// How kernels reach this device under this variant.
 Route routeOf(const DeviceInfo& device, const Variant& variant);
-
-/// For an option's help: one line an axis, one line a generator.
-std::string axesHelp();
-std::string inputHelp();
 
 /// Refuses a file that could not be written, or that is the input itself; called before any work. "-" is stdout.
 void checkOutputPath(const std::filesystem::path& path, const std::string& input);

@@ -76,12 +76,11 @@ ExitCode runDevices() {
       addDeviceRow(rows, names[i], kernels.get(), notes);
     }
   }
-  const VulkanAdapters vulkan = listVulkanAdapters();
-  for (const auto& adapter : vulkan.adapters)
+  for (const auto& adapter : listVulkanAdapters())
     if (!adapter.whyNot.empty())
       notes += fmt::format("vulkan:{} {} ({}): cannot be used: {}\n", adapter.index, adapter.name, adapter.driver,
                            adapter.whyNot);
-  for (const auto& note : vulkan.notes) notes += fmt::format("vulkan: {}\n", note);
+  if (rows.size() == 2 && notes.find("vulkan:") == std::string::npos) notes += "no Vulkan device was found\n";
   fmt::print("{}\n{}{}{}", table(rows), notes, notes.empty() ? "" : "\n", compilers);
   return ExitCode::kDone;
 }
@@ -93,9 +92,9 @@ Command addDevices(CLI::App& app) {
       app.add_subcommand("devices", "list the devices here, their limits and the verdict of the arithmetic probe");
   command->footer(
       "buffer: largest storage buffer; loop: iterations that one invocation can run; groups: workgroups in a "
-      "dimension.\n"
+      "dimension. "
       "Parity of images is claimed where the probe passes, and where it finds denormals flushed to zero and nothing "
-      "else,\nfor scenes whose arithmetic meets none.");
+      "else, for scenes whose arithmetic meets none.");
   return {command, runDevices};
 }
 

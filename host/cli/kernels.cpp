@@ -120,16 +120,16 @@ Command addKernels(CLI::App& app) {
   addAttribute(*command, *options);
   addSettings(*command, *options);
   addDevice(*command, *options, true);
+  addQuiet(*command, options->quiet);
   command->get_option("--device")->excludes(command->get_option("--emit"));
   command->footer(
-      "--emit writes the stages that the plan runs: of INPUT, else of a small scene with clipping and shading.\n"
-      "That a file is written does not make it valid: host/languages.md says what was judged, and by which compiler.\n"
+      "--emit writes the stages that the plan runs: of INPUT, else of a small scene with clipping and shading. "
+      "That a file is written does not make it valid: host/languages.md says what was judged, and by which compiler. "
       "Exit code 4 when the target cannot take a stage.\n\n"
       "Examples:\n"
       "  tessera kernels --prebuild --device cpu\n"
       "  tessera kernels --emit wgsl out/wgsl\n"
-      "  tessera kernels --emit spirv out/spirv --set commit=two-pass --set tile=16\n\n" +
-      axesHelp());
+      "  tessera kernels --emit spirv out/spirv --set commit=two-pass,tile=16");
   return {command, [options] { return runKernels(*options); }};
 }
 

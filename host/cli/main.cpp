@@ -4,10 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <memory>
 #include <new>
 
 #include "host/build-info.h"
 #include "host/cli/commands.h"
+#include "host/cli/help.h"
+#include "host/cli/mistake.h"
 
 namespace {
 
@@ -22,29 +25,36 @@ ExitCode complain(ExitCode code, std::string line) {
 ExitCode runCommand(int argc, char** argv) {
   CLI::App app{"Tessera rasterises triangles in compute shaders, with the same bits on every device."};
   app.name("tessera");
-  app.set_version_flag("--version",
-                       fmt::format("tessera {} ({}, {})", TESSERA_VERSION, TESSERA_GIT, TESSERA_BUILD_TYPE));
+  app.formatter(std::make_shared<cli::HelpFormatter>());
+  app.require_subcommand(0, 1);  // a second command's name is an argument, such as that of help
+  app.set_help_flag("-h,--help", "print this help");
+  const std::string version = fmt::format("tessera {} ({}, {})", TESSERA_VERSION, TESSERA_GIT, TESSERA_BUILD_TYPE);
+  app.set_version_flag("-V,--version", version, "print the version");
   app.footer(
       "Examples:\n"
-      "  tessera render bunny.obj -o bunny.png --set shade=smooth\n"
+      "  tessera render mesh:refined_elephant -o elephant.png --set shade=smooth\n"
       "  tessera render 'generate:icosphere?level=7' --device vulkan --repeat 20 --json -\n"
-      "  tessera parity bunny.obj\n"
-      "'tessera COMMAND --help' says more. Results go to stdout, messages to stderr.\n"
-      "Exit codes: 0 done; 2 bad usage or input; 3 overflow under overflow=error; 4 the device cannot run\n"
+      "  tessera parity mesh:refined_elephant\n"
+      "'tessera help COMMAND' says more. Results go to stdout, messages to stderr.\n"
+      "Exit codes: 0 done; 2 bad usage or input; 3 overflow under overflow=error; 4 the device cannot run "
       "this variant; 5 compare or parity found a difference; 130 a signal stopped sweep; 1 anything else.");
   const std::array commands{cli::addRender(app),  cli::addParity(app),   cli::addCompare(app), cli::addPlan(app),
                             cli::addDevices(app), cli::addVariants(app), cli::addKernels(app),
                             cli::addExpand(app),  cli::addSweep(app),   cli::addSweepWorker(app),
-                            cli::addReport(app)};
+                            cli::addReport(app),  cli::addHelp(app),     cli::addVersion(app, version)};
+  if (argc < 2) {
+    fmt::print(stderr, "{}\n", cli::shortHelp(app));
+    return ExitCode::kUsage;
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error), ExitCode::kDone;  // --help, --version
-    return complain(ExitCode::kUsage, fmt::format("{}; 'tessera --help' shows the usage", error.what()));
+    return complain(ExitCode::kUsage, cli::mistakeText(app, error));
   }
   for (const auto& command : commands)
     if (command.app->parsed()) return command.run();
-  return complain(ExitCode::kUsage, "a command is required; 'tessera --help' lists them");
+  return complain(ExitCode::kUsage, "a command is missing; 'tessera help' lists them");
 }
 
 }  // namespace

@@ -47,11 +47,7 @@ Run beginRun(const Scene& scene, const Variant& variant, const Device& device, c
   run.variant = variant;
   run.device = device.info();
   run.slang = kernels.slangc().version;
-  try {
-    run.kernelCompiler = kernels.cxx();
-  } catch (const Error&) {
-    if (device.info().api == "cpu") throw;  // other devices do without
-  }
+  run.kernelCompiler = kernels.cxx();
   return run;
 }
 

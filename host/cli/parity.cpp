@@ -15,7 +15,6 @@
 #include "host/cli/parity-oracle.h"
 #include "host/cli/parity-report.h"
 #include "host/cli/progress.h"
-#include "host/vulkan/vulkan-device.h"
 
 namespace tessera::cli {
 namespace {
@@ -45,10 +44,8 @@ class Parity {
       : options_(options), attempts_(listAttempts(options)), kernels_({.files = kernelFilesOf(options)}) {
     for (const auto& attempt : attempts_)
       if (auto& device = devices_[attempt.device]; !device) device = openDevice(attempt.device, options.threads);
-    if (options.devices.empty()) {
-      for (const auto& note : listVulkanAdapters().notes) fmt::print(stderr, "vulkan: {}\n", note);
-      if (devices_.size() == 1 && devices_.contains("cpu")) fmt::print(stderr, "the CPU alone is compared\n");
-    }
+    if (options.devices.empty() && devices_.size() == 1 && devices_.contains("cpu"))
+      fmt::print(stderr, "no Vulkan device was found: the CPU alone is compared\n");
     scene_ = sceneOf(options);
   }
 
@@ -156,12 +153,13 @@ ExitCode runParity(const ParityOptions& options) {
     for (const auto& outcome : outcomes) rows += rowText(outcome.run) + '\n';
     writeText(options.json, rows);
   }
-  fmt::print(options.json == "-" ? stderr : stdout, "{}", parityReport(parity.scene(), outcomes));
+  if (!options.quiet)
+    fmt::print(options.json == "-" ? stderr : stdout, "{}", parityReport(parity.scene(), outcomes));
   const ExitCode code = exitCode(outcomes);
   if (code == ExitCode::kDifference && !replayed) {
     writeReplay(options.replay, parity.scene());
     std::string command = "tessera parity " + options.replay;
-    for (const auto& setting : options.settings)
+    for (const auto& setting : settingsOf(options))
       if (!setting.starts_with("shade=")) command += " --set " + setting;  // a replay has no normals
     fmt::print(stderr, "wrote {}, which shows it again: {}\n", options.replay, command);
   }
@@ -181,6 +179,7 @@ Command addParity(CLI::App& app) {
   addKernelFiles(*command, *options);
   addThreads(*command, *options);
   addRepeat(*command, options->repeat);
+  addQuiet(*command, options->quiet);
   command
       ->add_option("--json", options->json,
                    "write a result row (a line of JSON) a device and route to FILE, or - for stdout")
@@ -189,15 +188,13 @@ Command addParity(CLI::App& app) {
       ->type_name("FILE")
       ->capture_default_str();
   command->footer(
-      "Without --device: the CPU and every Vulkan device, each Vulkan device by both routes (Slang to SPIR-V, and\n"
+      "Without --device: the CPU and every Vulkan device, each Vulkan device by both routes (Slang to SPIR-V, and "
       "Slang to GLSL to glslang). --set commit=count compares how often each sample is hit. The oracle does not "
-      "shade:\n"
-      "colours are compared with the first device's, and so is all of an approximate variant, whose error is in the "
+      "shade: colours are compared with the first device's, and so is all of an approximate variant, whose error is in the "
       "table.\n\n"
       "Examples:\n"
-      "  tessera parity bunny.obj\n"
-      "  tessera parity 'generate:soup?count=1000' --device vulkan:0 --set tile=8 --size 512x512\n\n" +
-      inputHelp() + "\n" + axesHelp());
+      "  tessera parity mesh:refined_elephant\n"
+      "  tessera parity 'generate:soup?count=1000' --device vulkan:0 --set tile=8 --size 512");
   return {command, [options] { return runParity(*options); }};
 }
 

@@ -48,7 +48,7 @@ Command addPlan(CLI::App& app) {
   addDevice(*command, *options, false);
   addSettings(*command, *options);
   command->add_flag("--json", options->json, "print JSON");
-  command->footer("Example:\n  tessera plan bunny.obj --set shade=smooth\n\n" + inputHelp() + "\n" + axesHelp());
+  command->footer("Example:\n  tessera plan mesh:refined_elephant --set shade=smooth");
   return {command, [options] { return runPlan(*options); }};
 }
 

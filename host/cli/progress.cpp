@@ -4,11 +4,13 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstdio>
 
 namespace tessera::cli {
 namespace {
 
+std::atomic<bool> silent{false};
 constexpr std::chrono::milliseconds kTerminalInterval{200};
 constexpr std::chrono::seconds kLogInterval{10};
 
@@ -19,6 +21,8 @@ Progress::Progress(std::string label, std::size_t total)
       terminal_(isatty(STDERR_FILENO) == 1),
       total_(total),
       watcher_([this](std::stop_token stop) { watch(stop); }) {}
+
+void Progress::silence() { silent = true; }
 
 Progress::~Progress() {
   watcher_.request_stop();
@@ -43,6 +47,7 @@ void Progress::watch(std::stop_token stop) {
 }
 
 void Progress::draw() {
+  if (silent) return;
   const double seconds = std::chrono::duration<double>(Clock::now() - start_).count();
   std::string line = label_;
   if (total_ != 0) line += fmt::format(" {}/{}", done_, total_);

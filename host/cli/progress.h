@@ -18,6 +18,8 @@ class Progress {
   Progress(std::string label, std::size_t total);
   ~Progress();
   Progress(const Progress&) = delete;
+  /// From now on nothing is drawn, by any of them.
+  static void silence();
 
   /// `what` is being done now. `left`: seconds that the rest will take, where the caller knows better than by the share
   /// that is done; counted down until the next call.

@@ -10,6 +10,7 @@
 #include "host/cli/progress.h"
 #include "host/cli/render-error.h"
 #include "host/cli/table.h"
+#include "host/cli/times.h"
 #include "host/image.h"
 #include "host/kernel-cache.h"
 #include "host/rasterizer.h"
@@ -54,17 +55,9 @@ std::string summary(const RenderOptions& options, const Run& run, std::uint64_t 
                       run.device.threads != 0 ? fmt::format(", {} threads", run.device.threads) : "",
                       byteSize(run.peakBufferBytes));
   if (run.device.correctnessOnly) text += "a software driver: its times say nothing about a GPU\n";
-  std::vector<std::vector<std::string>> rows{{"stage", "ms"}};
-  for (const auto& [stage, median] : stageMedians(run.samples)) rows.push_back({stage, milliseconds(median)});
-  rows.push_back(
-      {fmt::format("{} ({} of {})", frameLabel(run), run.samples.size() > 1 ? "median" : "time", run.samples.size()),
-       milliseconds(totalSpread(run.samples).median)});
-  text += table(rows);
+  text += timesText(run);
   text += countersText(run.counters);
   text += errorSummary(run);
-  if (!options.outputs.empty())
-    text += fmt::format("{} ms to load OpenImageIO, beside the frame that warms up\n",
-                        milliseconds(1e6 * finishLoadingImages()));
   for (const auto& output : options.outputs) text += fmt::format("wrote {}\n", output);
   return text;
 }
@@ -80,10 +73,7 @@ Framebuffer renderFrames(const RenderOptions& options, Device& device, KernelCac
 
   Rasterizer rasterizer(device, kernels);
   Progress progress("render", options.repeat + 1);
-  Frame frame = measure(run, rasterizer, kernels, options.repeat, [&](unsigned done) {
-    if (done == 1 && !options.outputs.empty()) finishLoadingImages();  // or the frames that are timed would share the cores with it
-    progress.at(done);
-  });
+  Frame frame = measure(run, rasterizer, kernels, options.repeat, [&](unsigned done) { progress.at(done); });
   run.peakBufferBytes = device.peakBufferBytes();
   if (countWork) {
     const Counters work = rasterizer.render(scene, asked, {.readBack = false, .countWork = true}).counters;
@@ -100,15 +90,11 @@ Framebuffer renderFrames(const RenderOptions& options, Device& device, KernelCac
 
 ExitCode render(const RenderOptions& options) {
   const Variant variant = variantOf(options);
-  if (options.outputs.empty() && options.json.empty())
-    failUsage("render: nothing to write; -o FILE.png, -o FILE.exr or --json FILE is needed");
-  std::vector<ImageOutput> images;
-  for (const auto& output : options.outputs) images.emplace_back(output);
+  for (const auto& output : options.outputs) checkImagePath(output);
   if (!options.json.empty()) checkOutputPath(options.json, options.input);
   KernelCache kernels({.files = kernelFilesOf(options)});
   const auto device = openDevice(options);
   const Scene scene = sceneOf(options);
-  if (!images.empty()) startLoadingImages();
   Run run = beginRun(scene, variant, *device, kernels);
   run.attributeRange = attributeOf(options).range;
   const auto writeRow = [&] {
@@ -124,9 +110,11 @@ ExitCode render(const RenderOptions& options) {
     writeRow();
     throw;
   }
-  for (auto& output : images) output.write(image, run.attributeRange);
+  for (const auto& output : options.outputs) writeImage(output, image, run.attributeRange);
   writeRow();
+  if (options.quiet) return ExitCode::kDone;
   fmt::print(options.json == "-" ? stderr : stdout, "{}", summary(options, run, coveredPixels(image)));
+  fmt::print(stderr, "{}", timesWarning(run));
   return ExitCode::kDone;
 }
 
@@ -147,18 +135,19 @@ Command addRender(CLI::App& app) {
   addKernelFiles(*command, *options);
   addThreads(*command, *options);
   addRepeat(*command, options->repeat);
+  addQuiet(*command, options->quiet);
   command->add_flag("--error", options->error,
                     "compare the image with the oracle's; always done where an axis is approximate");
   command->add_option("--json", options->json, "write the result row (one line of JSON) to FILE, or - for stdout")
       ->type_name("FILE");
   command->footer(
+      "Without -o and --json the frames are rendered and timed, and nothing is written. Times are those of the whole "
+      "frame: median, least and greatest of --repeat frames, with a warning where they are too far apart to be compared.\n\n"
       "Examples:\n"
-      "  tessera render bunny.obj -o bunny.png --set shade=smooth --size 1920x1080\n"
+      "  tessera render mesh:refined_elephant -o elephant.png --set shade=smooth --size 1920x1080\n"
       "  tessera render 'generate:icosphere?level=7' --device vulkan:0 --set route=glsl -o ball.exr\n"
-      "  tessera render terrain.ply --attribute z --set fill=inclusive --set sub-pixel=0 -o heights.exr -o "
-      "heights.png\n"
-      "  tessera render scene.toml --threads 1 --repeat 50 --json row.json\n\n" +
-      inputHelp() + "\n" + axesHelp());
+      "  tessera render generate:grid --attribute z --set fill=inclusive,sub-pixel=0 -o heights.exr -o heights.png\n"
+      "  tessera render mesh:refined_elephant --threads 1 --repeat 50 --json row.jsonl");
   return {command, [options] { return render(*options); }};
 }
 

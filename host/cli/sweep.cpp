@@ -23,14 +23,13 @@ Command addSweep(CLI::App& app) {
       ->type_name("SCENE@DEVICE")
       ->allow_extra_args(false);
   command->footer(
-      "DIR holds journal.jsonl (a line a sample), rows.jsonl (a line a cell) and pictures of differences. Ctrl-C and\n"
+      "DIR holds journal.jsonl (a line a sample), rows.jsonl (a line a cell) and pictures of differences. Ctrl-C and "
       "kill -9 lose at most the sample that was running. Cells that overflow, are refused, run out of time or fail "
-      "are\n"
-      "rows with that status, and the exit code is 0; 130 when a signal stopped it.\n\n"
+      "are rows with that status, and the exit code is 0; 130 when a signal stopped it.\n\n"
       "Examples:\n"
-      "  tessera sweep tile.toml --out out/tile\n"
-      "  tessera sweep tile.toml --out out/tile --resume\n"
-      "  tessera sweep tile.toml --out out/ball-cpu --job ball@cpu");
+      "  tessera sweep experiments/tile-size/sweep.toml --quick --out out/tile\n"
+      "  tessera sweep experiments/tile-size/sweep.toml --out out/tile --resume\n"
+      "  tessera sweep experiments/tile-size/sweep.toml --out out/elephant --job elephant@cpu");
   return {command, [options] {
             harness::runSweep(*options);
             return ExitCode::kDone;

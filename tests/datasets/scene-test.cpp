@@ -142,7 +142,7 @@ TEST_CASE("A broken scene file is refused where it is broken") {
   CHECK(sceneError("size = [1,2\n").starts_with(":1:13: "));
   CHECK(sceneError("size = [8, 8]\n").find("at least one [[mesh]]") != std::string::npos);
   CHECK(sceneError("width = 8\n" + kSphere)
-            .starts_with(":1:1: a scene has no key 'width'; size, mesh, camera would be right"));
+            .starts_with(":1:1: a scene has no key 'width'; there are size, mesh, camera"));
   CHECK(sceneError(kSphere + "  colour = 3\n").starts_with(":3:3: [[mesh]] has no key 'colour'"));
   CHECK(sceneError(eye + "zoom = 3\n").starts_with(":5:1: [camera] has no key 'zoom'"));
   CHECK(sceneError("size = [0, 8]\n" + kSphere).starts_with(":1:8: size: 0 is not"));

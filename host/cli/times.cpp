@@ -1,0 +1,33 @@
+#include "host/cli/times.h"
+
+#include <fmt/format.h>
+
+#include <vector>
+
+#include "host/cli/measure.h"
+#include "host/cli/table.h"
+
+namespace tessera::cli {
+
+std::string timesText(const Run& run) {
+  const Spread frames = totalSpread(run.samples);
+  std::vector<std::vector<std::string>> rows{{"stage", "ms"}};
+  for (const auto& [stage, median] : stageMedians(run.samples)) rows.push_back({stage, milliseconds(median)});
+  rows.push_back({frameLabel(run), milliseconds(frames.median)});
+  std::string text = table(rows);
+  if (frames.count == 1) return text + "times of one frame; --repeat 20 would show how far frames are apart\n";
+  return text + fmt::format("medians of {} frames; {} took {} to {} ms, its median is {} +- {} ms\n", frames.count,
+                            frameLabel(run), milliseconds(frames.min), milliseconds(frames.max),
+                            milliseconds(frames.median), milliseconds(frames.median * frames.medianError()));
+}
+
+std::string timesWarning(const Run& run) {
+  const Spread frames = totalSpread(run.samples);
+  if (frames.medianError() <= kWideSpread) return "";
+  return fmt::format(
+      "warning: the frames took {} to {} ms: their median may be off by {:.0f} %; a quieter machine would help, or more "
+      "than --repeat {}\n",
+      milliseconds(frames.min), milliseconds(frames.max), 100 * frames.medianError(), frames.count);
+}
+
+}  // namespace tessera::cli
