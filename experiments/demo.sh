@@ -9,6 +9,13 @@ size=${TESSERA_DEMO_SIZE:-1024x1024}
 mesh=refined_elephant.off
 meshHash=a170eed4ef33ef412a72b824d791f69ea59ee5f5a7c12dc1ae9077b6eb030650   # of Debian 12's libcgal-demo 5.5.1
 
+if (($#)); then
+  case $1 in
+    -h | --help) echo 'usage: experiments/demo.sh, or ./dev demo, which builds first'; sed -n '2,/^set/{s/^# //p}' experiments/demo.sh; exit 0 ;;
+    *) echo "demo: takes no '$1'; --help says what it does" >&2; exit 2 ;;
+  esac
+fi
+
 say() { printf '%s\n' "demo: $*" >&2; }
 [[ -x $tessera ]] || { say "$tessera is not there: ./dev demo builds it first"; exit 1; }
 

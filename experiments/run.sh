@@ -11,18 +11,24 @@ say() { printf '%s\n' "experiments: $*" >&2; }
 die() { say "$*"; exit 2; }
 
 root=${TESSERA_OUT:-../out}
-quick=() out=$root/experiments keep=false names=()
+quick=() out=$root/experiments keep=false check=false names=()
 for argument; do
   argument=${argument%/}
   case $argument in
     --quick) quick=(--quick) out=$root/experiments-quick ;;
     --keep) keep=true ;;
+    --check) check=true ;;  # ./dev experiments asks before it builds
+    -h | --help)
+      echo 'usage: experiments/run.sh [--quick] [--keep] [NAME...], or ./dev experiments, which builds first'
+      sed -n '2,/^set/{s/^# //p}' "${BASH_SOURCE[0]##*/}"
+      exit 0 ;;
     -*) die "no option $argument; --quick and --keep are there" ;;
     *) [[ -f $argument/sweep.toml ]] || die "no experiment '$argument'; there are: $(echo */sweep.toml | sed 's:/sweep.toml::g')"
        names+=("$argument") ;;
   esac
 done
 $keep && ((${#quick[@]})) && die "--keep: rows of --quick are not kept, their times mean nothing"
+! $check || exit 0
 ((${#names[@]})) || names=($(echo */sweep.toml | sed 's:/sweep.toml::g'))
 
 failed=()

@@ -8,6 +8,11 @@ out=$root/out/papers/tiles-bins-cells
 sweeps=(tile-size bin-capacity pineda-cells)
 die() { printf '%s\n' "reproduce: $1" >&2; exit "${2:-1}"; }
 
+if [[ ${1:-} == -h || ${1:-} == --help ]]; then
+  echo 'usage: papers/tiles-bins-cells/reproduce.sh [--fresh | --resume]'
+  sed -n '2,/^set/{s/^# //p}' "${BASH_SOURCE[0]}"
+  exit 0
+fi
 (($# <= 1)) && [[ ${1:-} == '' || $1 == --fresh || $1 == --resume ]] || die "usage: reproduce.sh [--fresh | --resume]" 2
 [[ -f $root/.tools/report/pinned ]] || die ".tools/report: Python with Typst is not there; ./dev build installs it"
 python=$root/.tools/report/bin/python
