@@ -16,3 +16,7 @@ endif()
 if(TESSERA_BENCH)
   find_package(benchmark REQUIRED)
 endif()
+
+# Of libtessera-image-io.so alone. Through pkg-config: Debian 12's CMake package names OpenCV's include folder, which is not installed
+# with it.
+pkg_check_modules(OpenImageIO REQUIRED IMPORTED_TARGET OpenImageIO)

@@ -1,8 +1,9 @@
-# cmake --install: headers as in the source tree under include/tessera, libtessera.a, the kernels' Slang sources, the command, what it
-# makes reports with, and a package for find_package(tessera), which gives tessera::tessera.
+# cmake --install: headers as in the source tree under include/tessera, libtessera.a, the kernels' Slang sources, the command, the pinned
+# slangc, what makes reports, and a package for find_package(tessera), which gives tessera::tessera. Nothing that is installed needs the
+# clone, and the prefix can be moved: host/home.cpp finds the files from the program.
 include(CMakePackageConfigHelpers)
 set(packageFolder ${CMAKE_INSTALL_LIBDIR}/cmake/tessera)
-set(slangFolder ${CMAKE_INSTALL_DATADIR}/tessera/slang)
+set(slangFolder ${TESSERA_INSTALLED_DATA}/slang)
 
 target_sources(tessera PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} FILES
   host/counters.h host/cpu/cpu-device.h host/device.h host/error.h host/framebuffer.h host/image.h host/kernel-cache.h host/kernel.h host/plan.h
@@ -10,8 +11,17 @@ target_sources(tessera PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} F
 
 install(TARGETS tessera EXPORT tessera FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tessera)
 install(TARGETS tessera-cli)
+# What reads and writes images is loaded when it is needed, from beside the libraries, by the command and by programs that link the
+# library.
+set(moduleFolder ${CMAKE_INSTALL_LIBDIR}/tessera)
+install(TARGETS tessera_image_io LIBRARY DESTINATION ${moduleFolder})
+file(RELATIVE_PATH moduleFromCommand /${CMAKE_INSTALL_BINDIR} /${moduleFolder})
+set_target_properties(tessera-cli PROPERTIES INSTALL_RPATH $ORIGIN/${moduleFromCommand})
+target_link_options(tessera INTERFACE $<INSTALL_INTERFACE:LINKER:-rpath,$<INSTALL_PREFIX>/${moduleFolder}>)
 install(DIRECTORY slang/ DESTINATION ${slangFolder})
-install(DIRECTORY experiments/report/ DESTINATION ${CMAKE_INSTALL_DATADIR}/tessera/report PATTERN __pycache__ EXCLUDE)
+install(DIRECTORY experiments/report/ DESTINATION ${TESSERA_INSTALLED_DATA}/report PATTERN __pycache__ EXCLUDE)
+install(FILES tools/report.txt DESTINATION ${TESSERA_INSTALLED_DATA})
+include(${CMAKE_CURRENT_LIST_DIR}/install-tools.cmake)
 install(EXPORT tessera NAMESPACE tessera:: FILE tesseraTargets.cmake DESTINATION ${packageFolder})
 
 configure_package_config_file(cmake/tesseraConfig.cmake.in ${PROJECT_BINARY_DIR}/tesseraConfig.cmake

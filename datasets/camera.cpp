@@ -33,7 +33,7 @@ Matrix perspective(const Camera& camera, std::uint32_t width, std::uint32_t heig
 Matrix frameCamera(const Mesh& mesh, std::uint32_t width, std::uint32_t height) {
   std::vector<glm::dvec3> points;
   glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-low);
-  for (const glm::vec3& p : mesh.positions) {
+  for (const glm::vec3 p : mesh.positions) {
     if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) continue;
     points.emplace_back(p);
     low = glm::min(low, points.back());

@@ -53,8 +53,8 @@ Mesh makeIcosphere(const GeneratorValues& values) {
   for (int level = 0; level < static_cast<int>(values[0]); ++level) subdivide(positions, triangles);
   Mesh mesh;
   mesh.triangles = std::move(triangles);
-  mesh.positions.assign(positions.begin(), positions.end());
-  mesh.normals = mesh.positions;
+  mesh.positions = std::move(positions);
+  mesh.normals.assign(mesh.positions.begin(), mesh.positions.end());
   return mesh;
 }
 

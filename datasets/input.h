@@ -36,10 +36,12 @@ Scene loadInput(const std::string& input, std::uint32_t width = 0, std::uint32_t
 /// files may be infinite or NaN.
 inline constexpr std::uint32_t kBadIndex = 0xffffffffu;
 struct Mesh {
-  std::vector<glm::vec3> positions;
+  std::vector<glm::dvec3> positions;  ///< as the file has them: of text in double, of binary data in its type
   std::vector<glm::vec3> normals;
   std::vector<Triangle> triangles;
   std::vector<float> attribute;  ///< empty, or one a vertex: what was asked for, but for a coordinate
+  bool float32 = false;          ///< the file's coordinates are float32: what made the file has rounded them
+  std::vector<std::string> notes = {};  ///< one line each: what a user would not expect of this file
 };
 Mesh readMesh(const std::filesystem::path& path, const AttributeRequest& attribute = {});
 /// `spec` without the `generate:` prefix, e.g. "icosphere?level=5".

@@ -15,7 +15,8 @@ void completeNormals(Mesh& mesh) {
     sums.assign(count, glm::dvec3(0));
     for (const Triangle& t : mesh.triangles) {
       if (std::ranges::any_of(t, [&](std::uint32_t v) { return v >= count; })) continue;
-      const glm::dvec3 a(mesh.positions[t[0]]), b(mesh.positions[t[1]]), c(mesh.positions[t[2]]);
+      const auto corner = [&](int i) { return glm::dvec3(glm::vec3(mesh.positions[t[i]])); };
+      const glm::dvec3 a = corner(0), b = corner(1), c = corner(2);
       const glm::dvec3 normal = glm::cross(b - a, c - a);  // twice the area long
       if (usable(glm::dot(normal, normal)))
         for (const std::uint32_t v : t) sums[v] += normal;

@@ -34,7 +34,10 @@ void applyMatrix(Mesh& mesh, const Matrix& m) {
   const auto row = [&](std::size_t r, const glm::vec3& p) {
     return ((m[r] * p.x + m[r + 1] * p.y) + m[r + 2] * p.z) + m[r + 3];
   };
-  for (glm::vec3& p : mesh.positions) p = {row(0, p), row(4, p), row(8, p)};
+  for (glm::dvec3& position : mesh.positions) {
+    const glm::vec3 p(position);
+    position = {row(0, p), row(4, p), row(8, p)};
+  }
   // The cofactor matrix: the inverse transpose times the determinant, there even where a matrix flattens. Its sign is
   // taken out, so that normals stay on their side under a reflection.
   const glm::dvec3 x(m[0], m[1], m[2]), y(m[4], m[5], m[6]), z(m[8], m[9], m[10]);
@@ -133,7 +136,7 @@ Scene readSceneFile(const std::filesystem::path& path, std::uint32_t width, std:
     if (!camera->is_table()) top.fail(camera->source(), "camera: [camera] would be right");
     scene.clipFromObject = readCamera(file, *camera->as_table(), scene.width, scene.height);
   } else if (!flat) {
-    scene.clipFromObject = frameCamera({scene.positions, {}, {}, {}}, scene.width, scene.height);
+    scene.clipFromObject = frameCamera({{scene.positions.begin(), scene.positions.end()}, {}, {}, {}}, scene.width, scene.height);
   }
   return scene;
 }

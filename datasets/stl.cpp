@@ -31,7 +31,7 @@ struct Facets {
   std::uint32_t vertex(const glm::vec3& p) {
     const auto [found, isNew] =
         vertices.try_emplace(std::bit_cast<Bits>(p), static_cast<std::uint32_t>(mesh.positions.size()));
-    if (isNew) mesh.positions.push_back(p);
+    if (isNew) mesh.positions.emplace_back(p);
     return found->second;
   }
 };

@@ -10,14 +10,12 @@
 
 #include "host/error.h"
 #include "host/files.h"
+#include "host/home.h"
 #include "host/spirv.h"
 #include "host/subprocess.h"
 
 #ifndef TESSERA_CXX
 #define TESSERA_CXX "g++"
-#endif
-#ifndef TESSERA_TOOLS_DIR
-#define TESSERA_TOOLS_DIR ""
 #endif
 
 namespace tessera {
@@ -108,7 +106,7 @@ std::string ToolMemory::recall(const std::string& question, const fs::path& prog
   return answer;
 }
 
-ToolInfo chooseSlangc(ToolMemory& memory) {
+ToolInfo chooseSlangc(ToolMemory& memory, const fs::path& pinned) {
   const auto fault = [&](const fs::path& path) -> std::string {
     try {
       memory.recall("check", path, [&] { return checkSlangc(path); });
@@ -143,9 +141,12 @@ ToolInfo chooseSlangc(ToolMemory& memory) {
     if (why.empty()) return chosen(path, "PATH");
     rejected = fmt::format(" ({} in PATH: {})", path.string(), why);
   }
-  const fs::path pinned = fs::path(TESSERA_TOOLS_DIR) / "slangc";
-  if (*TESSERA_TOOLS_DIR == '\0' || access(pinned.c_str(), X_OK) != 0)
-    failUsage(fmt::format("no slangc{}: `./dev build` fetches one, or set SLANGC to yours", rejected));
+  if (access(pinned.c_str(), X_OK) != 0)
+    failUsage(home().installed
+                  ? fmt::format("no slangc{}: {} is not there; set SLANGC to a slangc of Slang 2026.14.1 or later, or "
+                                "install again from a clone in which `./dev build` ran",
+                                rejected, pinned.string())
+                  : fmt::format("no slangc{}: `./dev build` fetches one, or set SLANGC to yours", rejected));
   if (const std::string why = fault(pinned); !why.empty())
     failUsage(fmt::format("{}: {}; remove it and run `./dev build`, or set SLANGC to yours", pinned.string(), why));
   return chosen(pinned, "tools");
@@ -153,11 +154,14 @@ ToolInfo chooseSlangc(ToolMemory& memory) {
 
 CxxInfo resolveCxx(ToolMemory& memory) {
   CxxInfo info;
-  info.path = findProgram(TESSERA_CXX);
+  const std::string chosen = environment("TESSERA_CXX"), wanted = chosen.empty() ? TESSERA_CXX : chosen;
+  info.path = findProgram(wanted);
   if (info.path.empty() || access(info.path.c_str(), X_OK) != 0)
-    fail(fmt::format(
-        "{}: the C++ compiler of this build is not here any more; CPU kernels need it: install it or build again",
-        TESSERA_CXX));
+    failUsage(chosen.empty()
+                  ? fmt::format("{}: no C++ compiler is there, and kernels for the CPU need one: install it (Debian: "
+                                "g++), or set TESSERA_CXX to yours",
+                                wanted)
+                  : fmt::format("TESSERA_CXX={}: no such program; a g++ or clang++ would be right", chosen));
   const std::string compiler = info.path.string();
   const std::string machine = "|" + processorIdentity();
   info.targetMacros = memory.recall("macros" + machine, info.path, [&] {
@@ -195,8 +199,12 @@ fs::path defaultCacheFolder() {
 
 std::string cpuDriverText() {
   ToolMemory memory(defaultCacheFolder());
-  const CxxInfo cxx = resolveCxx(memory);
-  return fmt::format("{}, {}", cxx.version, cxx.target);
+  try {
+    const CxxInfo cxx = resolveCxx(memory);
+    return fmt::format("{}, {}", cxx.version, cxx.target);
+  } catch (const Error&) {
+    return "no C++ compiler";
+  }
 }
 
 }  // namespace tessera

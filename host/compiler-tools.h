@@ -26,10 +26,10 @@ class ToolMemory {
   std::map<std::string, std::string> answers_;
 };
 
-/// $SLANGC if set; else the first slangc in PATH that will do; else the pinned one that ./dev fetched. One will do if
+/// $SLANGC if set; else the first slangc in PATH that will do; else the `pinned` one (see home.h). One will do if
 /// it compiles a small module at -O1 (which takes its optimiser: Mesa refuses some of what slangc writes without one)
 /// and the result passes checkSpirv(). Throws kUsage where $SLANGC will not do, and where there is none.
-ToolInfo chooseSlangc(ToolMemory& memory);
+ToolInfo chooseSlangc(ToolMemory& memory, const std::filesystem::path& pinned);
 
 struct CxxInfo {
   std::filesystem::path path;
@@ -37,7 +37,7 @@ struct CxxInfo {
   std::string target;        ///< what -march=native stands for, e.g. "znver4"
   std::string targetMacros;  ///< predefined for that target; in the key, since hypervisors mask features of a processor
 };
-/// The C++ compiler that this build was made with. Throws kFailure if it is gone.
+/// $TESSERA_CXX if set, else the C++ compiler that this build was made with. Throws kUsage if it is not there.
 CxxInfo resolveCxx(ToolMemory& memory);
 
 /// glslangValidator from PATH. Throws kUsage if there is none.
@@ -46,7 +46,8 @@ ToolInfo resolveGlslang(ToolMemory& memory);
 /// $TESSERA_CACHE, else $XDG_CACHE_HOME/tessera, else ~/.cache/tessera. Throws kUsage where none of them is set.
 std::filesystem::path defaultCacheFolder();
 
-/// What DeviceInfo::driver says for the CPU: the compiler and the target that kernels are built for.
+/// What DeviceInfo::driver says for the CPU: the compiler and the target that kernels are built for. Without a compiler
+/// it says so: the first kernel is refused then.
 std::string cpuDriverText();
 
 }  // namespace tessera

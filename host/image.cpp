@@ -1,27 +1,26 @@
 #include "host/image.h"
 
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstddef>
 #include <cstring>
-#include <fstream>
 #include <string>
 #include <system_error>
 #include <type_traits>
+#include <utility>
 
 #include "host/error.h"
+#include "host/exr-header.h"
 #include "host/files.h"
+#include "host/image-module.h"
 #include "host/picture.h"
-#include "host/scene.h"
 
 namespace tessera {
 namespace {
 
 namespace fs = std::filesystem;
-using OIIO::TypeDesc;
+using imageio::Format;
 
 std::string extensionOf(const fs::path& path) {
   std::string extension = path.extension().string();
@@ -29,17 +28,13 @@ std::string extensionOf(const fs::path& path) {
   return extension;
 }
 
-fs::path folderOf(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path("."); }
-
-// OpenImageIO's messages may run over several lines.
-std::string firstLine(const std::string& text) { return text.substr(0, text.find('\n')); }
-
 // A channel of an .exr and where its values lie in a framebuffer. All are 4 bytes wide.
 constexpr std::size_t kChannelBytes = 4;
+constexpr std::size_t kBandBytes = std::size_t{16} << 20;
+constexpr std::uint32_t kRowsOfChunk = 16;  // that zip packs together
 template <typename Byte>
 struct Channel {
-  const char* name;
-  TypeDesc::BASETYPE type;
+  const char *name, *type;
   Byte* data;          ///< of pixel 0
   std::size_t stride;  ///< bytes from pixel to pixel
 };
@@ -48,173 +43,214 @@ template <typename Frame>
 auto channelsOf(Frame& frame) {
   using Byte = std::conditional_t<std::is_const_v<Frame>, const std::byte, std::byte>;
   std::vector<Channel<Byte>> channels;
-  const auto add = [&](const char* name, TypeDesc::BASETYPE type, auto& values, std::size_t offset) {
+  const auto add = [&](const char* name, const char* type, auto& values, std::size_t offset) {
     if (values.empty()) return;
     channels.push_back({name, type, reinterpret_cast<Byte*>(values.data()) + offset, sizeof(values[0])});
   };
-  add("R", TypeDesc::FLOAT, frame.colour, 0);
-  add("G", TypeDesc::FLOAT, frame.colour, 4);
-  add("B", TypeDesc::FLOAT, frame.colour, 8);
-  add("Z", TypeDesc::FLOAT, frame.depth, 0);
-  add("A", TypeDesc::FLOAT, frame.attribute, 0);
-  add("id", TypeDesc::UINT32, frame.ids, 0);
-  add("hits", TypeDesc::UINT32, frame.hits, 0);
+  add("R", "float", frame.colour, 0);
+  add("G", "float", frame.colour, 4);
+  add("B", "float", frame.colour, 8);
+  add("Z", "float", frame.depth, 0);
+  add("A", "float", frame.attribute, 0);
+  add("id", "uint", frame.ids, 0);
+  add("hits", "uint", frame.hits, 0);
   return channels;
 }
 
-constexpr std::uint32_t kRowsAtATime = 64;  // a multiple of the 16 rows that are compressed together
-
-bool writeExr(OIIO::ImageOutput& out, const std::string& name, const Framebuffer& frame) {
-  const auto channels = channelsOf(frame);
-  OIIO::ImageSpec spec(static_cast<int>(frame.width), static_cast<int>(frame.height), static_cast<int>(channels.size()),
-                       TypeDesc::FLOAT);
-  spec.channelformats.resize(channels.size());
-  for (std::size_t c = 0; c < channels.size(); ++c) {
-    spec.channelnames[c] = channels[c].name;
-    spec.channelformats[c] = channels[c].type;
-  }
-  spec.attribute("compression", "zip");
-  if (!out.open(name, spec)) return false;
-  std::vector<std::byte> rows;
-  for (std::uint32_t begin = 0; begin < frame.height; begin += kRowsAtATime) {
-    const std::uint32_t end = std::min(frame.height, begin + kRowsAtATime);
-    rows.resize(std::size_t{end - begin} * frame.width * channels.size() * kChannelBytes);
-    std::byte* next = rows.data();
-    for (std::size_t k = std::size_t{begin} * frame.width; k < std::size_t{end} * frame.width; ++k) {
-      for (const auto& channel : channels) {
-        std::memcpy(next, channel.data + k * channel.stride, kChannelBytes);
-        next += kChannelBytes;
-      }
-    }
-    if (!out.write_scanlines(static_cast<int>(begin), static_cast<int>(end), 0, TypeDesc::UNKNOWN, rows.data()))
-      return false;
-  }
-  return out.close();
+imageio::Header pngHeader(std::uint32_t width, std::uint32_t height, int channels, const ImageFacts& facts) {
+  imageio::Header header{width, height, {}, facts};
+  for (int c = 0; c < channels; ++c) header.channels.push_back({{}, "uint8", 1});
+  return header;
 }
 
-bool writePng(OIIO::ImageOutput& out, const std::string& name, const Framebuffer& frame,
-              const std::optional<ValueRange>& range) {
-  const Picture picture = makePicture(frame, range);
-  OIIO::ImageSpec spec(static_cast<int>(frame.width), static_cast<int>(frame.height), picture.channels,
-                       TypeDesc::UINT8);
-  spec.attribute("oiio:ColorSpace", "sRGB");
-  spec.attribute("oiio:UnassociatedAlpha", 1);  // as PNG has it: nothing is multiplied or divided by alpha
-  return out.open(name, spec) && out.write_image(TypeDesc::UINT8, picture.pixels.data()) && out.close();
+// The format that stands before a name, and the name after it; nothing where none stands there.
+std::pair<std::optional<Format>, std::string> splitName(const std::string& name) {
+  if (name.starts_with("png:")) return {Format::kPng, name.substr(4)};
+  if (name.starts_with("exr:")) return {Format::kExr, name.substr(4)};
+  return {{}, name};
 }
 
-// Number of a channel in the file, -1 where the file lacks it. Throws if it has another type.
-int channelOf(const OIIO::ImageSpec& spec, const std::string& file, const char* name, TypeDesc type) {
-  const int c = spec.channelindex(name);
-  if (c >= 0 && spec.channelformat(c) != type) {
-    failUsage(
-        fmt::format("{}: channel {} is {}, it should be {}", file, name, spec.channelformat(c).c_str(), type.c_str()));
-  }
-  return c;
+Format formatOf(const std::string& name) {
+  const auto [format, path] = splitName(name);
+  if (format) return *format;
+  const std::string extension = extensionOf(path);
+  if (extension == ".png") return Format::kPng;
+  if (extension == ".exr") return Format::kExr;
+  failUsage(fmt::format("{}: unknown image format '{}'; the name should end in .png or .exr, or begin with png: or exr: "
+                        "as in png:-",
+                        name, extension));
 }
 
 }  // namespace
 
-void checkImagePath(const fs::path& path) {
-  const std::string extension = extensionOf(path);
-  if (extension != ".png" && extension != ".exr") {
-    failUsage(
-        fmt::format("{}: unknown image format '{}'; the name should end in .png or .exr", path.string(), extension));
-  }
-  std::error_code error;
-  const fs::path folder = folderOf(path);
-  if (!fs::is_directory(folder, error))
-    failUsage(fmt::format("{}: there is no folder {}", path.string(), folder.string()));
-  if (fs::is_directory(path, error)) failUsage(fmt::format("{}: is a folder, not an image file", path.string()));
-  // Asking for permissions misses read-only and special file systems; making a file does not.
-  const fs::path probe = folder / uniqueName(path.filename().string());
-  errno = 0;
-  const bool made = std::ofstream(probe).is_open();
-  const int cause = errno;
-  fs::remove(probe, error);
-  if (!made) {
-    failUsage(fmt::format("{}: cannot write into {}: {}", path.string(), folder.string(),
-                          std::generic_category().message(cause)));
-  }
-}
+struct ImageOutput::State {
+  Format format;
+  fs::path path;
+  OutputFile file;
 
-void writeImage(const fs::path& path, const Framebuffer& frame, const std::optional<ValueRange>& range) {
-  checkImagePath(path);
-  if (channelsOf(frame).empty()) fail(fmt::format("{}: the frame holds nothing to write", path.string()));
-  const bool exr = extensionOf(path) == ".exr";
-  const fs::path beside = folderOf(path) / uniqueName(path.filename().string());
-  const auto out = OIIO::ImageOutput::create(exr ? "openexr" : "png");
-  if (!out) fail(fmt::format("{}: {}", path.string(), firstLine(OIIO::geterror())));
-  std::error_code error;
-  if (!(exr ? writeExr(*out, beside.string(), frame) : writePng(*out, beside.string(), frame, range))) {
-    const std::string why = firstLine(out->geterror());
-    fs::remove(beside, error);
-    fail(fmt::format("{}: cannot be written: {}", path.string(), why));
-  }
-  fs::rename(beside, path, error);
-  if (error) {
-    const std::string why = error.message();
-    fs::remove(beside, error);
-    fail(fmt::format("{}: cannot be written: {}", path.string(), why));
-  }
-}
+  explicit State(const std::string& name) : format(formatOf(name)), path(splitName(name).second), file(path) {}
 
-Framebuffer readImage(const fs::path& path) {
-  const std::string name = path.string();
-  std::error_code error;
-  if (extensionOf(path) != ".exr") failUsage(fmt::format("{}: only an .exr holds ids and depth", name));
-  if (!fs::exists(path, error)) failUsage(fmt::format("{}: no such file", name));
-  if (fs::is_directory(path, error)) failUsage(fmt::format("{}: is a folder, not an image file", name));
-  // By the format's name: OpenImageIO would else try all its other readers on a broken file.
-  const auto in = OIIO::ImageInput::create("openexr");
-  if (!in) fail(fmt::format("{}: {}", name, firstLine(OIIO::geterror())));
-  const auto failBroken = [&] {
-    failUsage(fmt::format("{}: not a whole OpenEXR file: {}", name, firstLine(in->geterror())));
-  };
-  OIIO::ImageSpec spec;
-  if (!in->open(name, spec)) failBroken();
-  if (spec.deep || spec.tile_width != 0)
-    failUsage(fmt::format("{}: is deep or tiled, it should have plain scanlines", name));
-  if (spec.width < 1 || spec.height < 1 || spec.width > static_cast<int>(kMaxExtent) ||
-      spec.height > static_cast<int>(kMaxExtent)) {
-    failUsage(fmt::format("{}: is {} x {} pixels, it should be 1 x 1 to {} x {}", name, spec.width, spec.height,
-                          kMaxExtent, kMaxExtent));
+  void write(const imageio::Header& header, const imageio::RowSource& rows) {
+    const std::string why = imageModule().write(file.path().string(), format, header, rows);
+    if (!why.empty()) fail(fmt::format("{}: could not be written: {}", path.string(), why));
+    file.commit();
   }
+};
 
-  const int id = channelOf(spec, name, "id", TypeDesc::UINT32), z = channelOf(spec, name, "Z", TypeDesc::FLOAT);
-  const int hits = channelOf(spec, name, "hits", TypeDesc::UINT32);
-  const int attribute = channelOf(spec, name, "A", TypeDesc::FLOAT);
-  const bool shaded = channelOf(spec, name, "R", TypeDesc::FLOAT) >= 0 &&
-                      channelOf(spec, name, "G", TypeDesc::FLOAT) >= 0 &&
-                      channelOf(spec, name, "B", TypeDesc::FLOAT) >= 0;
-  if ((id < 0 || z < 0) && hits < 0) {
-    std::string found = fmt::format("{}", fmt::join(spec.channelnames, ", "));
-    failUsage(fmt::format("{}: holds channels {}; it should hold id and Z, or hits", name, found));
+ImageOutput::ImageOutput(const std::string& name) : state_(std::make_unique<State>(name)) {}
+ImageOutput::~ImageOutput() = default;
+ImageOutput::ImageOutput(ImageOutput&&) noexcept = default;
+const fs::path& ImageOutput::path() const { return state_->path; }
+
+void ImageOutput::write(const Framebuffer& frame, const std::optional<ValueRange>& range, const ImageFacts& facts) {
+  const auto channels = channelsOf(frame);
+  if (channels.empty()) fail(fmt::format("{}: the frame holds nothing to write", path().string()));
+  if (state_->format == Format::kPng) {
+    const Picture picture = makePicture(frame, range);
+    state_->write(pngHeader(frame.width, frame.height, picture.channels, facts),
+                  [&](std::uint32_t begin, std::uint32_t end, std::byte* out) {
+                    picture.pixels(std::size_t{begin} * frame.width, std::size_t{end} * frame.width,
+                                   reinterpret_cast<std::uint8_t*>(out));
+                  });
+    return;
   }
-
-  Framebuffer frame;
-  frame.width = static_cast<std::uint32_t>(spec.width);
-  frame.height = static_cast<std::uint32_t>(spec.height);
-  const std::size_t pixelBytes = spec.pixel_bytes(true);
-  std::vector<std::byte> rows;
-  for (std::uint32_t begin = 0; begin < frame.height; begin += kRowsAtATime) {
-    // The framebuffer grows with what was read, so that a broken header cannot ask for all memory.
-    const std::uint32_t end = std::min(frame.height, begin + kRowsAtATime);
-    const std::size_t before = std::size_t{begin} * frame.width, after = std::size_t{end} * frame.width;
-    rows.resize((after - before) * pixelBytes);
-    const int y = spec.y + static_cast<int>(begin);
-    const int yEnd = y + static_cast<int>(end - begin);
-    if (!in->read_scanlines(0, 0, y, yEnd, 0, 0, spec.nchannels, TypeDesc::UNKNOWN, rows.data())) failBroken();
-    if (id >= 0) frame.ids.resize(after);
-    if (z >= 0) frame.depth.resize(after);
-    if (hits >= 0) frame.hits.resize(after);
-    if (attribute >= 0) frame.attribute.resize(after);
-    if (shaded) frame.colour.resize(after);
-    for (const auto& channel : channelsOf(frame)) {
-      const std::byte* from = rows.data() + spec.pixel_bytes(0, spec.channelindex(channel.name), true);
-      for (std::size_t k = before; k < after; ++k, from += pixelBytes) {
-        std::memcpy(channel.data + k * channel.stride, from, kChannelBytes);
+  imageio::Header header{frame.width, frame.height, {}, facts};
+  for (const auto& channel : channels) header.channels.push_back({channel.name, channel.type, kChannelBytes});
+  state_->write(header, [&](std::uint32_t begin, std::uint32_t end, std::byte* out) {
+    for (std::size_t k = std::size_t{begin} * frame.width; k < std::size_t{end} * frame.width; ++k) {
+      for (const auto& channel : channels) {
+        std::memcpy(out, channel.data + k * channel.stride, kChannelBytes);
+        out += kChannelBytes;
       }
     }
+  });
+}
+
+void ImageOutput::write(std::uint32_t width, std::uint32_t height, const ColourRows& rows, const ImageFacts& facts) {
+  std::vector<glm::vec3> colours;
+  const auto make = [&](std::uint32_t begin, std::uint32_t end) {
+    colours.resize(std::size_t{end - begin} * width);
+    rows(begin, end, colours.data());
+  };
+  if (state_->format == Format::kPng) {
+    state_->write(pngHeader(width, height, 3, facts), [&](std::uint32_t begin, std::uint32_t end, std::byte* out) {
+      make(begin, end);
+      auto* next = reinterpret_cast<std::uint8_t*>(out);
+      for (const glm::vec3& colour : colours) next = putSrgb(colour, next);
+    });
+    return;
+  }
+  imageio::Header header{width, height, {}, facts};
+  for (const char* name : {"R", "G", "B"}) header.channels.push_back({name, "float", kChannelBytes});
+  state_->write(header, [&](std::uint32_t begin, std::uint32_t end, std::byte* out) {
+    make(begin, end);
+    std::memcpy(out, colours.data(), colours.size() * sizeof(glm::vec3));
+  });
+}
+
+void writeImage(const fs::path& path, const Framebuffer& frame, const std::optional<ValueRange>& range,
+                const ImageFacts& facts) {
+  ImageOutput(path.string()).write(frame, range, facts);
+}
+
+struct ImageReader::State {
+  std::string name;
+  std::unique_ptr<imageio::Reader> file;
+  std::vector<std::byte> rows;
+  std::size_t pixelBytes = 0;
+  bool ids = false, depth = false, hits = false, attribute = false, colour = false;
+
+  // Where a channel lies in a pixel.
+  std::size_t offsetOf(std::string_view channel) const {
+    std::size_t offset = 0;
+    for (const auto& c : file->header().channels) {
+      if (c.name == channel) break;
+      offset += c.bytes;
+    }
+    return offset;
+  }
+  // Whether the file has the channel. Throws if it has another type.
+  bool has(const char* channel, std::string_view type) const {
+    for (const auto& c : file->header().channels) {
+      if (c.name != channel) continue;
+      if (c.type != type)
+        failUsage(fmt::format("{}: channel {} is {}, it should be {}", name, channel, c.type, type));
+      return true;
+    }
+    return false;
+  }
+};
+
+ImageReader::ImageReader(const fs::path& path, std::uint64_t limit) : state_(std::make_unique<State>()) {
+  State& s = *state_;
+  s.name = path.string();
+  std::error_code error;
+  if (extensionOf(path) != ".exr") failUsage(fmt::format("{}: only an .exr holds ids and depth", s.name));
+  if (!fs::exists(path, error)) failUsage(fmt::format("{}: no such file", s.name));
+  if (fs::is_directory(path, error)) failUsage(fmt::format("{}: is a folder, not an image file", s.name));
+  checkExr(path, limit);
+  std::string why;
+  s.file = imageModule().openExr(s.name, why);
+  if (!s.file) failUsage(fmt::format("{}: not a whole OpenEXR file: {}", s.name, why));
+  s.ids = s.has("id", "uint");
+  s.depth = s.has("Z", "float");
+  s.hits = s.has("hits", "uint");
+  s.attribute = s.has("A", "float");
+  const bool red = s.has("R", "float"), green = s.has("G", "float"), blue = s.has("B", "float");
+  s.colour = red && green && blue;
+  if ((!s.ids || !s.depth) && !s.hits) {
+    std::vector<std::string> found;
+    for (const auto& channel : s.file->header().channels) found.push_back(channel.name);
+    failUsage(fmt::format("{}: holds channels {}; it should hold id and Z, or hits", s.name, fmt::join(found, ", ")));
+  }
+  for (const auto& channel : s.file->header().channels) s.pixelBytes += channel.bytes;
+}
+
+ImageReader::~ImageReader() = default;
+std::uint32_t ImageReader::width() const { return state_->file->header().width; }
+std::uint32_t ImageReader::height() const { return state_->file->header().height; }
+const ImageFacts& ImageReader::facts() const { return state_->file->header().text; }
+
+std::uint32_t ImageReader::bandRows() const {
+  const std::size_t row = std::size_t{width()} * state_->pixelBytes;
+  return static_cast<std::uint32_t>(std::clamp<std::size_t>(kBandBytes / row, 1, 4) * kRowsOfChunk);
+}
+
+void ImageReader::read(std::uint32_t begin, std::uint32_t end, Framebuffer& band) {
+  State& s = *state_;
+  band.width = width();
+  band.height = end - begin;
+  s.rows.resize(band.pixels() * s.pixelBytes);
+  const std::string why = s.file->read(begin, end, s.rows.data());
+  if (!why.empty()) failUsage(fmt::format("{}: not a whole OpenEXR file: {}", s.name, why));
+  band.ids.resize(s.ids ? band.pixels() : 0);
+  band.depth.resize(s.depth ? band.pixels() : 0);
+  band.hits.resize(s.hits ? band.pixels() : 0);
+  band.attribute.resize(s.attribute ? band.pixels() : 0);
+  band.colour.resize(s.colour ? band.pixels() : 0);
+  for (const auto& channel : channelsOf(band)) {
+    const std::byte* from = s.rows.data() + s.offsetOf(channel.name);
+    for (std::size_t k = 0; k < band.pixels(); ++k, from += s.pixelBytes)
+      std::memcpy(channel.data + k * channel.stride, from, kChannelBytes);
+  }
+}
+
+Framebuffer readImage(const fs::path& path, std::uint64_t limit) {
+  ImageReader reader(path, limit);
+  Framebuffer frame, band;
+  frame.width = reader.width();
+  frame.height = reader.height();
+  const auto add = [&](auto& to, const auto& from) {
+    if (to.empty() && !from.empty()) to.reserve(frame.pixels());  // taken as it is filled
+    to.insert(to.end(), from.begin(), from.end());
+  };
+  for (std::uint32_t begin = 0; begin < frame.height; begin += reader.bandRows()) {
+    reader.read(begin, std::min(frame.height, begin + reader.bandRows()), band);
+    add(frame.ids, band.ids);
+    add(frame.depth, band.depth);
+    add(frame.hits, band.hits);
+    add(frame.attribute, band.attribute);
+    add(frame.colour, band.colour);
   }
   return frame;
 }

@@ -17,6 +17,7 @@
 #include "host/compiler-tools.h"
 #include "host/error.h"
 #include "host/files.h"
+#include "host/home.h"
 #include "host/reflection.h"
 #include "host/slang-compiler.h"
 #include "host/slang-sources.h"
@@ -24,12 +25,6 @@
 
 #ifndef TESSERA_KERNEL_CXX_FLAGS
 #define TESSERA_KERNEL_CXX_FLAGS ""
-#endif
-#ifndef TESSERA_SLANG_DIR
-#define TESSERA_SLANG_DIR "slang"
-#endif
-#ifndef TESSERA_SLANG_INSTALLED
-#define TESSERA_SLANG_INSTALLED "share/tessera/slang"
 #endif
 
 namespace tessera {
@@ -56,10 +51,7 @@ std::vector<std::string> splitWords(const std::string& text) {
 /// $TESSERA_SLANG_SOURCES, else what was installed with this program, else the folder that this build came from.
 fs::path defaultSlangSources() {
   if (const char* folder = std::getenv("TESSERA_SLANG_SOURCES"); folder != nullptr && *folder != '\0') return folder;
-  std::error_code error;
-  const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  const fs::path installed = program.parent_path().parent_path() / TESSERA_SLANG_INSTALLED;
-  return !error && fs::is_directory(installed, error) ? installed : fs::path(TESSERA_SLANG_DIR);
+  return home().slang;
 }
 
 /// An entry is a folder with the binary and this: the hash of the binary, and the interface with its own.
@@ -100,18 +92,22 @@ struct KernelCache::State {
   }
 
   /// Tools are looked for when the first kernel needs them: the command line's other work needs none.
-  template <typename Tool>
-  const Tool& tool(std::optional<Tool>& place, Tool (*find)(ToolMemory&)) {
+  template <typename Tool, typename Find>
+  const Tool& tool(std::optional<Tool>& place, const Find& find) {
     const std::lock_guard lock(toolsMutex);
     if (!place) place = find(memory);
     return *place;
+  }
+
+  const ToolInfo& slangcInUse() {
+    return tool(slangc, [&](ToolMemory& known) { return chooseSlangc(known, slangcOf(options.slangSources)); });
   }
 
   CompileSettings settings(const KernelRequest& request) {
     CompileSettings settings;
     const Route route = request.route;
     const bool glsl = languageOf(request) == Language::kGlsl;
-    if (!glsl) settings.slangc = tool(slangc, chooseSlangc);
+    if (!glsl) settings.slangc = slangcInUse();
     if (route == Route::kCpp) settings.cxx = tool(cxx, resolveCxx);
     if (route == Route::kGlsl || glsl) settings.glslang = tool(glslang, resolveGlslang);
     settings.slangSources = options.slangSources;
@@ -255,7 +251,7 @@ std::vector<CompiledKernel> KernelCache::getAll(const std::vector<KernelRequest>
 
 const KernelFiles& KernelCache::files() const { return state_->options.files; }
 
-const ToolInfo& KernelCache::slangc() const { return state_->tool(state_->slangc, chooseSlangc); }
+const ToolInfo& KernelCache::slangc() const { return state_->slangcInUse(); }
 
 std::string KernelCache::cxx() const {
   const CxxInfo& cxx = state_->tool(state_->cxx, resolveCxx);

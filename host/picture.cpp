@@ -30,8 +30,10 @@ glm::vec3 fromOklab(float lightness, float a, float b) {
 // inside sRGB.
 glm::vec3 heat(float t) { return fromOklab(0.32f + 0.62f * t, -0.04f * t, -0.13f + 0.28f * t); }
 
-void append(Picture& picture, const glm::vec3& linear) {
-  for (int c = 0; c < 3; ++c) picture.pixels.push_back(toSrgb(linear[c]));
+std::uint8_t* put(const glm::vec3& linear, bool drawn, std::uint8_t* out) {
+  out = putSrgb(linear, out);
+  *out++ = drawn ? 255 : 0;
+  return out;
 }
 
 Picture valueMap(const std::vector<float>& values, std::optional<ValueRange> range) {
@@ -40,51 +42,57 @@ Picture valueMap(const std::vector<float>& values, std::optional<ValueRange> ran
     for (const float value : values)
       if (!std::isnan(value)) range->least = std::min(range->least, value), range->most = std::max(range->most, value);
   }
-  const double span = double{range->most} - range->least;  // may be negative: the map is turned round
-  Picture picture;
-  for (const float value : values) {
-    const double part = span != 0 ? (value - range->least) / span : 0.5;
-    append(picture, std::isnan(value) ? glm::vec3(0) : heat(static_cast<float>(std::clamp(part, 0.0, 1.0))));
-    picture.pixels.push_back(std::isnan(value) ? 0 : 255);
-  }
-  return picture;
+  const double least = range->least, span = range->most - least;  // may be negative: the map is turned round
+  return {4, [&values, least, span](std::size_t first, std::size_t last, std::uint8_t* out) {
+            for (std::size_t k = first; k < last; ++k) {
+              const double part = span != 0 ? (values[k] - least) / span : 0.5;
+              const bool drawn = !std::isnan(values[k]);
+              out = put(drawn ? heat(static_cast<float>(std::clamp(part, 0.0, 1.0))) : glm::vec3(0), drawn, out);
+            }
+          }};
 }
 
 Picture heatMap(const std::vector<std::uint32_t>& hits) {
   // Logarithmic: one hit and two are as far apart as 50 and 100. The scale ends at the most hits of this frame.
   const float most = std::log2(static_cast<float>(std::max(2u, *std::max_element(hits.begin(), hits.end()))));
-  Picture picture;
-  for (const std::uint32_t n : hits) {
-    append(picture, n ? heat(std::log2(static_cast<float>(n)) / most) : glm::vec3(0));
-    picture.pixels.push_back(n ? 255 : 0);
-  }
-  return picture;
+  return {4, [&hits, most](std::size_t first, std::size_t last, std::uint8_t* out) {
+            for (std::size_t k = first; k < last; ++k) {
+              const float part = hits[k] ? std::log2(static_cast<float>(hits[k])) / most : 0;
+              out = put(hits[k] ? heat(part) : glm::vec3(0), hits[k] != 0, out);
+            }
+          }};
 }
 
 Picture greyDepth(const Framebuffer& frame) {
   // Perspective crowds depths near 1, so grey spans those of this frame: light is near, dark is far.
-  const auto covered = [&](std::size_t k) { return frame.ids.empty() || frame.ids[k] != kNoTriangle; };
+  const auto covered = [&frame](std::size_t k) { return frame.ids.empty() || frame.ids[k] != kNoTriangle; };
   float nearest = 1, farthest = 0;
   for (std::size_t k = 0; k < frame.pixels(); ++k) {
     if (covered(k)) nearest = std::min(nearest, frame.depth[k]), farthest = std::max(farthest, frame.depth[k]);
   }
   const float range = farthest > nearest ? farthest - nearest : 1;
-  Picture picture;
-  for (std::size_t k = 0; k < frame.pixels(); ++k) {
-    const float far = std::clamp((frame.depth[k] - nearest) / range, 0.0f, 1.0f);
-    const auto grey = static_cast<std::uint8_t>(covered(k) ? std::lround(240 - 200 * far) : 0);
-    picture.pixels.insert(picture.pixels.end(), {grey, grey, grey, static_cast<std::uint8_t>(covered(k) ? 255 : 0)});
-  }
-  return picture;
+  return {4, [&frame, covered, nearest, range](std::size_t first, std::size_t last, std::uint8_t* out) {
+            for (std::size_t k = first; k < last; ++k) {
+              const float far = std::clamp((frame.depth[k] - nearest) / range, 0.0f, 1.0f);
+              const auto grey = static_cast<std::uint8_t>(covered(k) ? std::lround(240 - 200 * far) : 0);
+              out = std::fill_n(out, 3, grey);
+              *out++ = covered(k) ? 255 : 0;
+            }
+          }};
 }
 
 }  // namespace
 
+std::uint8_t* putSrgb(const glm::vec3& linear, std::uint8_t* out) {
+  for (int c = 0; c < 3; ++c) *out++ = toSrgb(linear[c]);
+  return out;
+}
+
 Picture makePicture(const Framebuffer& frame, const std::optional<ValueRange>& range) {
   if (!frame.colour.empty()) {
-    Picture picture{3, {}};
-    for (const glm::vec3& colour : frame.colour) append(picture, colour);
-    return picture;
+    return {3, [&frame](std::size_t first, std::size_t last, std::uint8_t* out) {
+              for (std::size_t k = first; k < last; ++k) out = putSrgb(frame.colour[k], out);
+            }};
   }
   if (!frame.attribute.empty()) return valueMap(frame.attribute, range);
   if (!frame.hits.empty()) return heatMap(frame.hits);

@@ -23,13 +23,17 @@ struct Scene {
   std::string name;
   std::uint32_t width = 1024;        ///< pixels, 1 to kMaxExtent
   std::uint32_t height = 1024;       ///< pixels, 1 to kMaxExtent
-  std::vector<glm::vec3> positions;  ///< object space
+  std::vector<glm::vec3> positions;  ///< object space: the input's coordinates less `origin`
   std::vector<glm::vec4> clip;       ///< clip space, given as they are (replay files, tests): no transform runs
   std::vector<glm::vec3> normals;    ///< empty, or unit length, one a vertex, object space
   std::vector<float> attribute;      ///< empty, or one a vertex: frames get a raster of these values, too
   std::string attributeName;         ///< of it
   std::vector<Triangle> triangles;
   Matrix clipFromObject = kIdentity;
+  /// What loadInput() took from the input's coordinates before it rounded them; 0 for a scene near 0. A frame depends
+  /// on positions and matrix alone.
+  glm::dvec3 origin{0};
+  std::vector<std::string> notes;    ///< one line each: what a user would not expect of the input
 
   std::size_t vertexCount() const { return positions.empty() ? clip.size() : positions.size(); }
 };

@@ -67,7 +67,7 @@ ValueRange parseRange(const std::string& text) {
 [[noreturn]] void failDevice(const std::string& name) {
   std::vector<std::string> names{"cpu"}, known{"cpu"};
   std::string part;
-  for (const VulkanAdapter& adapter : listVulkanAdapters()) {
+  for (const VulkanAdapter& adapter : listVulkanAdapters().adapters) {
     names.push_back(fmt::format("vulkan:{}", adapter.index));
     known.push_back(fmt::format("vulkan:{} ({})", adapter.index, adapter.name));
     if (lowerCase(name) == "gpu") part = "vulkan";
@@ -234,7 +234,7 @@ std::unique_ptr<Device> openDevice(const Options& options) {
 
 std::vector<std::string> presentDevices() {
   std::vector<std::string> names{"cpu"};
-  for (const auto& adapter : listVulkanAdapters())
+  for (const auto& adapter : listVulkanAdapters().adapters)
     if (adapter.whyNot.empty()) names.push_back(fmt::format("vulkan:{}", adapter.index));
   return names;
 }

@@ -3,10 +3,12 @@
 
 #include <cstdio>
 #include <memory>
+#include <optional>
 
 #include "host/cli/commands.h"
 #include "host/cli/common.h"
 #include "host/cli/difference.h"
+#include "host/files.h"
 
 namespace tessera::cli {
 namespace {
@@ -29,17 +31,18 @@ std::string missingText(const CompareOptions& options, const Framebuffer& a, con
 }
 
 ExitCode runCompare(const CompareOptions& options) {
+  std::optional<ImageOutput> output;
   if (!options.output.empty()) {
-    checkImagePath(options.output);
-    for (const auto& input : {options.a, options.b}) checkOutputPath(options.output, input);
+    output.emplace(options.output);
+    checkApart({output->path()}, {options.a, options.b});
   }
   const Framebuffer a = readImage(options.a);
   const Framebuffer b = readImage(options.b);
   const Difference difference = compare(a, b);
-  if (!options.output.empty()) {
+  if (output) {
     Framebuffer picture{
         .width = a.width, .height = a.height, .depth = {}, .ids = {}, .hits = {}, .colour = differencePicture(a, b)};
-    writeImage(options.output, picture);
+    output->write(picture);
   }
   fmt::print("{}{}", missingText(options, a, b), describe(difference));
   if (!options.output.empty()) fmt::print("wrote {}\n", options.output);

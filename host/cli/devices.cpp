@@ -76,11 +76,12 @@ ExitCode runDevices() {
       addDeviceRow(rows, names[i], kernels.get(), notes);
     }
   }
-  for (const auto& adapter : listVulkanAdapters())
+  const VulkanAdapters vulkan = listVulkanAdapters();
+  for (const auto& adapter : vulkan.adapters)
     if (!adapter.whyNot.empty())
       notes += fmt::format("vulkan:{} {} ({}): cannot be used: {}\n", adapter.index, adapter.name, adapter.driver,
                            adapter.whyNot);
-  if (rows.size() == 2 && notes.find("vulkan:") == std::string::npos) notes += "no Vulkan device was found\n";
+  for (const auto& note : vulkan.notes) notes += fmt::format("vulkan: {}\n", note);
   fmt::print("{}\n{}{}{}", table(rows), notes, notes.empty() ? "" : "\n", compilers);
   return ExitCode::kDone;
 }

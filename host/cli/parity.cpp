@@ -15,6 +15,7 @@
 #include "host/cli/parity-oracle.h"
 #include "host/cli/parity-report.h"
 #include "host/cli/progress.h"
+#include "host/vulkan/vulkan-device.h"
 
 namespace tessera::cli {
 namespace {
@@ -44,8 +45,10 @@ class Parity {
       : options_(options), attempts_(listAttempts(options)), kernels_({.files = kernelFilesOf(options)}) {
     for (const auto& attempt : attempts_)
       if (auto& device = devices_[attempt.device]; !device) device = openDevice(attempt.device, options.threads);
-    if (options.devices.empty() && devices_.size() == 1 && devices_.contains("cpu"))
-      fmt::print(stderr, "no Vulkan device was found: the CPU alone is compared\n");
+    if (options.devices.empty()) {
+      for (const auto& note : listVulkanAdapters().notes) fmt::print(stderr, "vulkan: {}\n", note);
+      if (devices_.size() == 1 && devices_.contains("cpu")) fmt::print(stderr, "the CPU alone is compared\n");
+    }
     scene_ = sceneOf(options);
   }
 

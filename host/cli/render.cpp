@@ -58,6 +58,9 @@ std::string summary(const RenderOptions& options, const Run& run, std::uint64_t 
   text += timesText(run);
   text += countersText(run.counters);
   text += errorSummary(run);
+  if (!options.outputs.empty())
+    text += fmt::format("{} ms to load OpenImageIO, beside the frame that warms up\n",
+                        milliseconds(1e6 * finishLoadingImages()));
   for (const auto& output : options.outputs) text += fmt::format("wrote {}\n", output);
   return text;
 }
@@ -73,7 +76,10 @@ Framebuffer renderFrames(const RenderOptions& options, Device& device, KernelCac
 
   Rasterizer rasterizer(device, kernels);
   Progress progress("render", options.repeat + 1);
-  Frame frame = measure(run, rasterizer, kernels, options.repeat, [&](unsigned done) { progress.at(done); });
+  Frame frame = measure(run, rasterizer, kernels, options.repeat, [&](unsigned done) {
+    if (done == 1 && !options.outputs.empty()) finishLoadingImages();  // or the frames that are timed would share the cores with it
+    progress.at(done);
+  });
   run.peakBufferBytes = device.peakBufferBytes();
   if (countWork) {
     const Counters work = rasterizer.render(scene, asked, {.readBack = false, .countWork = true}).counters;
@@ -90,11 +96,13 @@ Framebuffer renderFrames(const RenderOptions& options, Device& device, KernelCac
 
 ExitCode render(const RenderOptions& options) {
   const Variant variant = variantOf(options);
-  for (const auto& output : options.outputs) checkImagePath(output);
+  std::vector<ImageOutput> images;
+  for (const auto& output : options.outputs) images.emplace_back(output);
   if (!options.json.empty()) checkOutputPath(options.json, options.input);
   KernelCache kernels({.files = kernelFilesOf(options)});
   const auto device = openDevice(options);
   const Scene scene = sceneOf(options);
+  if (!images.empty()) startLoadingImages();
   Run run = beginRun(scene, variant, *device, kernels);
   run.attributeRange = attributeOf(options).range;
   const auto writeRow = [&] {
@@ -110,7 +118,7 @@ ExitCode render(const RenderOptions& options) {
     writeRow();
     throw;
   }
-  for (const auto& output : options.outputs) writeImage(output, image, run.attributeRange);
+  for (auto& output : images) output.write(image, run.attributeRange);
   writeRow();
   if (options.quiet) return ExitCode::kDone;
   fmt::print(options.json == "-" ? stderr : stdout, "{}", summary(options, run, coveredPixels(image)));

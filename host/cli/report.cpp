@@ -13,6 +13,8 @@
 
 #include "experiments/harness/rows.h"
 #include "host/cli/commands.h"
+#include "host/compiler-tools.h"
+#include "host/home.h"
 #include "host/row.h"
 
 namespace tessera::cli {
@@ -40,25 +42,21 @@ void bringRowsUpToDate(const fs::path& folder) {
   if (haveJournal) harness::deriveRows(folder);
 }
 
-/// $TESSERA_PYTHON, else the environment that ./dev installs.
+/// $TESSERA_PYTHON, else that of the environment which ./dev makes and `cmake --install` copies, else of the one that
+/// the message says how to make.
 std::string pythonProgram() {
   if (const char* python = std::getenv("TESSERA_PYTHON"); python != nullptr && *python != '\0') return python;
-  const std::string python = TESSERA_REPORT_PYTHON;
-  if (access(python.c_str(), X_OK) != 0) {
-    fail(fmt::format(
-        "{}: not there; './dev build' installs what reports are made with, or set TESSERA_PYTHON to a Python 3.11 "
-        "that has what tools/report.txt lists",
-        python));
-  }
-  return python;
-}
-
-/// What was installed with this program, else the folder that this build came from.
-fs::path reportPackage() {
-  std::error_code error;
-  const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  const fs::path installed = program.parent_path().parent_path() / TESSERA_REPORT_INSTALLED;
-  return !error && fs::is_directory(installed, error) ? installed : fs::path(TESSERA_REPORT_DIR);
+  const fs::path python = home().python;
+  if (access(python.c_str(), X_OK) == 0) return python;  // not so where it is a link to a Python that is not here
+  if (!home().installed)
+    fail(fmt::format("{}: not there; './dev build' installs what reports are made with, or set TESSERA_PYTHON to a "
+                     "Python 3.11 that has what tools/report.txt lists",
+                     python.string()));
+  const fs::path own = defaultCacheFolder() / "report", ownPython = own / "bin/python";
+  if (access(ownPython.c_str(), X_OK) == 0) return ownPython;
+  fail(fmt::format("{} does not run here; 'python3.11 -m venv {} && {}/bin/pip install --require-hashes -r {}' installs "
+                   "what reports are made with, or set TESSERA_PYTHON to a Python 3.11 that has it",
+                   python.string(), own.string(), own.string(), home().pins.string()));
 }
 
 ExitCode runReport(const ReportOptions& options) {
@@ -66,7 +64,7 @@ ExitCode runReport(const ReportOptions& options) {
   // -I: neither the user's own packages nor $PYTHONPATH may get between; -B: nothing is written beside the sources.
   const std::string schema = std::to_string(kRowSchemaVersion);
   std::vector<std::string> words{
-      pythonProgram(), "-I", "-B", reportPackage().string(), options.folder, "--schema", schema};
+      pythonProgram(), "-I", "-B", home().report.string(), options.folder, "--schema", schema};
   if (!options.exported.empty()) words.insert(words.end(), {"--export", options.exported});
   if (options.allDevices) words.push_back("--all-devices");
   std::vector<char*> arguments;

@@ -1,6 +1,7 @@
 #include "host/vulkan/instance.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -9,6 +10,9 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <utility>
+
+#include "host/vulkan/drivers.h"
 
 namespace tessera::vulkan {
 namespace {
@@ -27,14 +31,40 @@ vk::DebugUtilsMessengerCreateInfoEXT messengerInfo(void* user) {
   return {{}, Severity::eWarning | Severity::eError, Type::eValidation | Type::ePerformance, forwardMessage, user};
 }
 
+/// Keeps what the loader complains about while it makes an instance, in its order, each once.
+VKAPI_ATTR VkBool32 VKAPI_CALL keepComplaint(VkDebugUtilsMessageSeverityFlagBitsEXT severity,
+                                             VkDebugUtilsMessageTypeFlagsEXT,
+                                             const VkDebugUtilsMessengerCallbackDataEXT* data, void* user) {
+  auto& complaints = *static_cast<std::vector<std::string>*>(user);
+  const std::string text = plainWords(data->pMessage);
+  // Among its warnings, only a driver that it skips is worth a word.
+  const bool skipped = text.find("Skipping ICD JSON") != std::string::npos;
+  if (severity != VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT && !skipped) return VK_FALSE;
+  if (!text.empty() && std::ranges::find(complaints, text) == complaints.end()) complaints.push_back(text);
+  return VK_FALSE;
+}
+
+vk::DebugUtilsMessengerCreateInfoEXT complaintInfo(std::vector<std::string>& complaints) {
+  using Severity = vk::DebugUtilsMessageSeverityFlagBitsEXT;
+  return {{},
+          Severity::eWarning | Severity::eError,
+          vk::DebugUtilsMessageTypeFlagBitsEXT::eGeneral,
+          keepComplaint,
+          &complaints};
+}
+
 /// Debian keeps SwiftShader, a software driver, where the loader does not look: in chromium-common. It is added where
 /// the user says nothing about drivers (loaders from 1.3.207 on read this; older ones leave it alone).
 void addSwiftShader() {
   constexpr const char* kDriver = "/usr/lib/chromium/vk_swiftshader_icd.json";
+  const char* const added = std::getenv("VK_ADD_DRIVER_FILES");
+  if (added != nullptr && std::strcmp(added, kDriver) == 0) ownVariable("VK_ADD_DRIVER_FILES");  // a parent's, say a sweep's
   for (const char* said : {"VK_ICD_FILENAMES", "VK_DRIVER_FILES", "VK_ADD_DRIVER_FILES"})
     if (std::getenv(said) != nullptr) return;
   std::error_code ignored;
-  if (std::filesystem::exists(kDriver, ignored)) setenv("VK_ADD_DRIVER_FILES", kDriver, 0);
+  if (!std::filesystem::exists(kDriver, ignored)) return;
+  setenv("VK_ADD_DRIVER_FILES", kDriver, 0);
+  ownVariable("VK_ADD_DRIVER_FILES");
 }
 
 vk::raii::Context makeContext() try {
@@ -44,23 +74,28 @@ vk::raii::Context makeContext() try {
   failUsage("no Vulkan loader (libvulkan.so.1) on this machine; Debian: libvulkan1 mesa-vulkan-drivers");
 }
 
-vk::raii::Instance makeInstance(const vk::raii::Context& context, bool validation, void* user) try {
+vk::raii::Instance makeInstance(const vk::raii::Context& context, bool validation, void* user,
+                                std::vector<std::string>& complaints) try {
   const vk::ApplicationInfo application("tessera", 1, "tessera", 1, kApiVersion);
   vk::InstanceCreateInfo info({}, &application);
-  const auto messenger = messengerInfo(user);
+  const auto ears = complaintInfo(complaints);
+  auto messenger = messengerInfo(user);
+  messenger.setPNext(&ears);
   const std::array extensions{VK_EXT_DEBUG_UTILS_EXTENSION_NAME};
+  info.setPEnabledExtensionNames(extensions).setPNext(&ears);  // the loader's own, so there without any driver
   if (validation) {
     const auto layers = context.enumerateInstanceLayerProperties();
     const auto isOurs = [](const auto& layer) { return std::strcmp(layer.layerName, kValidationLayer) == 0; };
     if (std::none_of(layers.begin(), layers.end(), isOurs))
-      failUsage(fmt::format("{} is not installed (Debian: vulkan-validationlayers); run without validation",
-                            kValidationLayer));
+      failUsage(driverFailure(fmt::format("{} is not installed", kValidationLayer), {}, About::kLayers));
     info.setPEnabledLayerNames(kValidationLayer).setPEnabledExtensionNames(extensions).setPNext(&messenger);
   }
   return {context, info};
 } catch (const vk::IncompatibleDriverError&) {
-  failUsage("no Vulkan driver on this machine; Debian: mesa-vulkan-drivers");
+  failUsage(driverFailure("no Vulkan driver", complaints));
 } catch (const vk::SystemError& error) {
+  // The loader says "out of host memory" for a driver's file that is not JSON; what it complained of says which.
+  if (!complaints.empty()) failUsage(driverFailure("no Vulkan instance", complaints));
   fail(fmt::format("no Vulkan instance: {}", error.what()));
 }
 
@@ -109,6 +144,11 @@ std::string lower(std::string text) {
 
 }  // namespace
 
+std::vector<std::string> withMissingFiles(std::vector<std::string> complaints) {
+  for (std::string& missing : missingFiles()) complaints.push_back(std::move(missing));
+  return complaints;
+}
+
 std::string Adapter::driverText() const {
   const std::string name = driver.driverName.data(), version = driver.driverInfo.data();
   return name + (version.empty() ? fmt::format(" {:#x}", properties.driverVersion) : " " + version);
@@ -128,7 +168,7 @@ Instance::Instance(bool validation, std::function<void(const std::string&)> onMe
     : context_(makeContext()),
       onMessage_(std::make_unique<std::function<void(const std::string&)>>(
           onMessage ? std::move(onMessage) : [](const std::string& message) { fmt::print(stderr, "{}\n", message); })),
-      instance_(makeInstance(context_, validation, onMessage_.get())) {
+      instance_(makeInstance(context_, validation, onMessage_.get(), complaints_)) {
   if (validation) messenger_ = {instance_, messengerInfo(onMessage_.get())};
 }
 
@@ -143,8 +183,8 @@ std::vector<Adapter> Instance::adapters(vk::QueueFlags queueFlags) const try {
   return {};  // what the loader says when no driver loads
 }
 
-Adapter selectAdapter(std::vector<Adapter> adapters, const std::string& select) {
-  if (adapters.empty()) failUsage("no Vulkan adapter on this machine; Debian: mesa-vulkan-drivers has a software one");
+Adapter selectAdapter(std::vector<Adapter> adapters, const std::string& select, const std::vector<std::string>& complaints) {
+  if (adapters.empty()) failUsage(driverFailure("no Vulkan device: no driver found one", complaints));
   std::string known;
   for (std::size_t i = 0; i < adapters.size(); ++i)
     known += fmt::format("{}{} {}", i ? ", " : "", i, adapters[i].name());
@@ -162,7 +202,11 @@ Adapter selectAdapter(std::vector<Adapter> adapters, const std::string& select) 
     chosen = std::find_if(adapters.begin(), adapters.end(),
                           [&](const Adapter& a) { return lower(a.name()).find(lower(select)) != std::string::npos; });
   }
-  if (chosen == adapters.end()) failUsage(fmt::format("vulkan:{}: no such device; there are: {}", select, known));
+  if (chosen == adapters.end()) {
+    const std::vector<std::string> notes = withMissingFiles(complaints);
+    failUsage(fmt::format("vulkan:{}: no such device; there are: {}{}{}", select, known, notes.empty() ? "" : "; ",
+                          fmt::join(notes, "; ")));
+  }
   if (!chosen->whyNot.empty())
     failUnsupported(fmt::format("vulkan: {} cannot be used: {}", chosen->name(), chosen->whyNot));
   return std::move(*chosen);
@@ -172,15 +216,20 @@ Adapter selectAdapter(std::vector<Adapter> adapters, const std::string& select) 
 
 namespace tessera {
 
-std::vector<VulkanAdapter> listVulkanAdapters() try {
-  std::vector<VulkanAdapter> list;
+VulkanAdapters listVulkanAdapters() try {
+  VulkanAdapters found;
   const vulkan::Instance instance(false, {});
+  auto& list = found.adapters;
   for (const auto& adapter : instance.adapters())
     list.push_back({static_cast<unsigned>(list.size()), adapter.name(), adapter.driverText(), adapter.apiVersionText(),
                     adapter.whyNot});
-  return list;
-} catch (const Error&) {
-  return {};
+  if (list.empty())
+    found.notes = {vulkan::driverFailure("no Vulkan device: no driver found one", instance.complaints())};
+  else
+    found.notes = vulkan::withMissingFiles(instance.complaints());
+  return found;
+} catch (const Error& error) {
+  return {{}, {error.what()}};
 }
 
 }  // namespace tessera

@@ -37,8 +37,11 @@ class Instance {
   Instance(bool validation, std::function<void(const std::string&)> onMessage);
   /// Adapters in the loader's order, whose queue family has all of `queueFlags` and timestamps.
   std::vector<Adapter> adapters(vk::QueueFlags queueFlags = vk::QueueFlagBits::eCompute) const;
+  /// What the loader complained about when it looked for drivers; there may be adapters all the same.
+  const std::vector<std::string>& complaints() const { return complaints_; }
 
  private:
+  std::vector<std::string> complaints_;  // before instance_, whose making fills it
   vk::raii::Context context_;
   // On the heap: the messenger keeps a pointer to it.
   std::unique_ptr<std::function<void(const std::string&)>> onMessage_;
@@ -46,8 +49,12 @@ class Instance {
   vk::raii::DebugUtilsMessengerEXT messenger_ = nullptr;
 };
 
-/// The adapter that VulkanOptions::select names; see there.
-Adapter selectAdapter(std::vector<Adapter> adapters, const std::string& select);
+/// The adapter that VulkanOptions::select names; see there. `complaints` are the instance's, for the message.
+Adapter selectAdapter(std::vector<Adapter> adapters, const std::string& select,
+                      const std::vector<std::string>& complaints);
+
+/// The complaints, and the variables that name files which are not there.
+std::vector<std::string> withMissingFiles(std::vector<std::string> complaints);
 
 /// Runs `work`; a Vulkan failure in it leaves as Error, one line that starts with `what`.
 template <class Work>

@@ -33,7 +33,7 @@ vk::raii::Device makeDevice(const Adapter& adapter) {
 
 Machine::Machine(const VulkanOptions& options, vk::QueueFlags queueFlags)
     : instance(options.validation, options.onMessage),
-      adapter(selectAdapter(instance.adapters(queueFlags), options.select)),
+      adapter(selectAdapter(instance.adapters(queueFlags), options.select, instance.complaints())),
       device(makeDevice(adapter)),
       memory(adapter.physical.getMemoryProperties()),
       staged(options.staged) {}

@@ -15,7 +15,13 @@ struct VulkanAdapter {
   std::string name, driver, apiVersion;
   std::string whyNot;  ///< empty when usable
 };
-std::vector<VulkanAdapter> listVulkanAdapters();  ///< never throws for a missing loader or driver: the list is empty
+struct VulkanAdapters {
+  std::vector<VulkanAdapter> adapters;
+  /// What kept a driver from loading, a line each: variables of the environment by name, the loader's own words. There
+  /// is one where there are no adapters.
+  std::vector<std::string> notes;
+};
+VulkanAdapters listVulkanAdapters();  ///< never throws for a missing loader or driver
 
 struct VulkanOptions {
   /// "" a GPU before a software driver, "N" by index, else part of the name; kUsage if there is none.

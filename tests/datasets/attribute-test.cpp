@@ -92,7 +92,7 @@ TEST_CASE("PLY: every scalar type is an attribute in text and both byte orders")
       CHECK(readMesh(path, {nameOf(i), {}}).attribute == Values{first, first + 1, first + 2});
     }
     CHECK(readMesh(path).attribute.empty());
-    CHECK(readMesh(path).positions[1] == glm::vec3(1, 0, 7));
+    CHECK(readMesh(path).positions[1] == glm::dvec3(1, 0, 7));
   }
 }
 

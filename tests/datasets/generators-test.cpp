@@ -86,7 +86,7 @@ TEST_CASE("Solids are closed and face outwards") {
     }
     CHECK(volume > 0.3);
   }
-  for (const glm::vec3& p : generateMesh("icosphere?level=5").positions)
+  for (const glm::dvec3& p : generateMesh("icosphere?level=5").positions)
     REQUIRE(glm::length(p) == Approx(1).margin(1e-6));
 }
 
@@ -103,7 +103,7 @@ TEST_CASE("Flat generators lie in the clip volume and face the eye") {
       all += area(mesh, t);
     }
     CHECK(all > (many ? 0.1 : 0.5));
-    for (const glm::vec3& p : mesh.positions) {
+    for (const glm::vec3 p : mesh.positions) {
       REQUIRE((p.z >= 0 && p.z <= 1));
       REQUIRE(std::fmax(std::abs(p.x), std::abs(p.y)) <= (generator.name == "soup" ? 1.02f : 1.0f));
     }
@@ -119,7 +119,7 @@ TEST_CASE("Loose triangles have the size and the place that was asked for") {
                glm::cross(soup.positions[t[1]] - soup.positions[t[0]], soup.positions[t[2]] - soup.positions[t[0]]).z) /
            2;
   CHECK(sum / 50000 / pixel == Approx(100).epsilon(0.02));
-  for (const glm::vec3& p : generateMesh("hot?count=3000&block=16").positions) {
+  for (const glm::dvec3& p : generateMesh("hot?count=3000&block=16").positions) {
     REQUIRE((p.x >= 0 && p.x < 32.0f / 2048));
     REQUIRE((p.y >= 0 && p.y < 32.0f / 2048));
   }
@@ -129,7 +129,7 @@ TEST_CASE("Layers come in the order that was asked for") {
   const auto depths = [](const std::string& order) {
     const Mesh mesh = generateMesh("layers?count=4&order=" + order);
     std::vector<float> z;
-    for (std::size_t t = 0; t < mesh.triangles.size(); t += 2) z.push_back(mesh.positions[mesh.triangles[t][0]].z);
+    for (std::size_t t = 0; t < mesh.triangles.size(); t += 2) z.push_back(static_cast<float>(mesh.positions[mesh.triangles[t][0]].z));
     return z;
   };
   CHECK(depths("far-to-near") == std::vector<float>{0.875f, 0.625f, 0.375f, 0.125f});

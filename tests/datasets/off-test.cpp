@@ -21,7 +21,7 @@ TEST_CASE("OFF: polygons are fanned, duplicate and non-manifold faces stay in or
 3 0 0 1
 )"));
   CHECK(mesh.positions.size() == 5);
-  CHECK(mesh.positions[4] == glm::vec3(0.5f, 0.5f, 1));
+  CHECK(mesh.positions[4] == glm::dvec3(0.5, 0.5, 1));
   const std::vector<Triangle> expected{{0, 1, 2}, {0, 2, 3}, {0, 1, 4}, {0, 1, 4}, {1, 0, 2}, {1, 0, 4}, {0, 0, 1}};
   CHECK(mesh.triangles == expected);
 }

@@ -39,7 +39,7 @@ std::string binary(const Mesh& mesh, std::uint32_t count) {
   put(count);
   for (const Triangle& t : mesh.triangles) {
     put(glm::vec3(0));
-    for (const std::uint32_t v : t) put(mesh.positions[v]);
+    for (const std::uint32_t v : t) put(glm::vec3(mesh.positions[v]));
     put(std::uint16_t{0});
   }
   return text;

@@ -229,7 +229,7 @@ TEST_CASE("wrong use is one clear line") {
   fails(ExitCode::kUnsupported, "bytes of group memory", [&] { m.kernel("hugeGroupMemory"); });
   fails(ExitCode::kFailure, "not a SPIR-V module", [&] {
     CompiledKernel text = kernel->compiled();
-    text.binary = __FILE__;
+    text.binary = TESSERA_SOURCE_DIR "/README.md";
     m.device->createKernel(text);
   });
   // None of it was recorded, and the device goes on.
@@ -269,7 +269,7 @@ TEST_CASE("peak bytes follow the buffers held") {
 }
 
 TEST_CASE("adapters are listed and selected by index and by part of the name") {
-  const auto adapters = listVulkanAdapters();
+  const auto adapters = listVulkanAdapters().adapters;
   REQUIRE(!adapters.empty());
   for (std::size_t i = 0; i < adapters.size(); ++i) CHECK(adapters[i].index == i);
   const VulkanAdapter& first = adapters[0];
@@ -289,7 +289,8 @@ TEST_CASE("adapters are listed and selected by index and by part of the name") {
 }
 
 TEST_CASE("lavapipe says what it is") {
-  for (const auto& adapter : listVulkanAdapters()) {
+  const auto present = listVulkanAdapters().adapters;
+  for (const auto& adapter : present) {
     if (adapter.name.find("llvmpipe") == std::string::npos) continue;
     VulkanOptions options;
     options.select = std::to_string(adapter.index);
@@ -302,7 +303,7 @@ TEST_CASE("lavapipe says what it is") {
 }
 
 TEST_CASE("SwiftShader is there without being asked for and chosen only by name") {
-  const auto adapters = listVulkanAdapters();
+  const auto adapters = listVulkanAdapters().adapters;
   const auto isSwiftShader = [](const VulkanAdapter& a) { return a.name.find("SwiftShader") != std::string::npos; };
   REQUIRE(std::count_if(adapters.begin(), adapters.end(), isSwiftShader) == 1);
   CHECK(isSwiftShader(adapters.back()));

@@ -3,6 +3,7 @@
 
 #include "datasets/input.h"
 #include "host/cpu/cpu-device.h"
+#include "host/image.h"
 #include "host/kernel-cache.h"
 #include "host/rasterizer.h"
 
@@ -15,5 +16,6 @@ int main() {
 
   std::size_t covered = 0;
   for (const std::uint32_t id : frame.image.ids) covered += id != tessera::kNoTriangle;
+  tessera::writeImage("sphere.png", frame.image);
   std::printf("%zu triangles cover %zu of %zu pixels\n", scene.triangles.size(), covered, frame.image.pixels());
 }
