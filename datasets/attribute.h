@@ -12,7 +12,5 @@ inline const std::vector<std::string> kCoordinates{"x", "y", "z"};  ///< what ev
 /// Refuses an attribute, naming those that there are.
 [[noreturn]] void failAttribute(const std::string& place, const std::string& name,
                                 const std::vector<std::string>& present);
-/// Gives a scene whose meshes are all there its attribute's name, and the values if it is a coordinate.
-void setCoordinates(Scene& scene, const AttributeRequest& attribute);
 
 }  // namespace tessera

@@ -5,8 +5,9 @@
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
-#include <limits>
 #include <vector>
+
+#include "datasets/extent.h"
 
 namespace tessera {
 namespace {
@@ -30,20 +31,21 @@ Matrix perspective(const Camera& camera, std::uint32_t width, std::uint32_t heig
   return clipFromWorld(camera, std::tan(camera.fov * (3.141592653589793 / 360)), double(width) / height);
 }
 
-Matrix frameCamera(const Mesh& mesh, std::uint32_t width, std::uint32_t height) {
+Matrix frameCamera(const Scene& scene) {
+  const auto at = [&](std::size_t v) { return glm::dvec3(scene.positions[v]); };
+  const std::vector<bool> drawn = drawnVertices(scene.positions.size(), scene.triangles, at);
   std::vector<glm::dvec3> points;
-  glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-low);
-  for (const glm::vec3 p : mesh.positions) {
-    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) continue;
-    points.emplace_back(p);
-    low = glm::min(low, points.back());
-    high = glm::max(high, points.back());
+  Box box;
+  for (std::size_t v = 0; v < drawn.size(); ++v) {
+    if (!drawn[v]) continue;
+    points.push_back(at(v));
+    box.add(points.back());
   }
-  if (points.empty()) low = high = glm::dvec3(0);
-  const glm::dvec3 centre = (low + high) / 2.0;
-  const double size = low == high ? 1 : glm::length(high - low);
+  if (points.empty()) box.add(glm::dvec3(0));
+  const glm::dvec3 centre = box.centre();
+  const double size = box.low == box.high ? 1 : glm::length(box.high - box.low);
   // The eye goes back along an axis from the box's centre until each point is inside the four sides, with 5% of room.
-  const double slope = 0.4, aspect = double(width) / height, room = 0.95;
+  const double slope = 0.4, aspect = double(scene.width) / scene.height, room = 0.95;
   const glm::dvec3 back = glm::normalize(glm::dvec3(0, 0.3, 1)), right(1, 0, 0), up = glm::cross(back, right);
   double distance = 0, nearest = 0, farthest = 0;  // along the axis, from the centre towards the eye
   for (const glm::dvec3& point : points) {

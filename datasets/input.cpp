@@ -5,6 +5,7 @@
 #include "datasets/attribute.h"
 #include "datasets/generators.h"
 #include "datasets/installed-mesh.h"
+#include "datasets/placing.h"
 #include "datasets/scene-file.h"
 #include "datasets/text.h"
 #include "host/error.h"
@@ -52,20 +53,28 @@ Scene loadInput(const std::string& input, std::uint32_t width, std::uint32_t hei
   scene.name = generated   ? input.substr(kGenerate.size())
                : installed ? input.substr(kInstalledMesh.size())
                            : path.stem().string();
-  const Source source = loadSource(input, "", attribute);
-  append(scene, source.mesh);
-  setCoordinates(scene, attribute);
-  scene.clipFromObject = source.flat ? kIdentity : frameCamera(source.mesh, scene.width, scene.height);
+  Source source = loadSource(input, "", attribute);
+  std::vector<PlacedMesh> meshes;
+  meshes.push_back({input, std::move(source.mesh), {}});
+  placeMeshes(scene, std::move(meshes), attribute);
+  scene.clipFromObject = source.flat ? kIdentity : frameCamera(scene);
   return scene;
 }
 
 void append(Scene& scene, const Mesh& mesh) {
+  std::vector<glm::vec3> positions;
+  positions.reserve(mesh.positions.size());
+  for (const glm::dvec3& p : mesh.positions) positions.emplace_back(p - scene.origin);
+  appendPlaced(scene, mesh, positions);
+}
+
+void appendPlaced(Scene& scene, const Mesh& mesh, const std::vector<glm::vec3>& positions) {
   if (!scene.clip.empty()) fail("a mesh cannot be appended to a scene of clip-space positions");
-  const std::size_t first = scene.positions.size(), count = mesh.positions.size();
+  const std::size_t first = scene.positions.size(), count = positions.size();
   if (first + count >= kBadIndex || scene.triangles.size() + mesh.triangles.size() >= kBadIndex)
     failUsage(fmt::format("{} vertices and {} triangles: ids and indices reach to {}", first + count,
                           scene.triangles.size() + mesh.triangles.size(), kBadIndex - 1));
-  scene.positions.insert(scene.positions.end(), mesh.positions.begin(), mesh.positions.end());
+  scene.positions.insert(scene.positions.end(), positions.begin(), positions.end());
   if (!scene.normals.empty() || !mesh.normals.empty()) {
     scene.normals.resize(first, glm::vec3(0, 0, 1));
     scene.normals.insert(scene.normals.end(), mesh.normals.begin(), mesh.normals.end());

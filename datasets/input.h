@@ -12,7 +12,7 @@
 
 namespace tessera {
 
-/// A value a vertex, by name: x, y or z of its position as the scene has it (after the matrices of its meshes), or a
+/// A value a vertex, by name: x, y or z of its position as the input has it (after the matrices of its meshes), or a
 /// scalar property of the vertices of a PLY file. With a range an integer property i of 0 to 32767 becomes A + (B - A)
 /// (i / 32767), in double precision and then rounded; of others it says nothing.
 struct AttributeRequest {
@@ -26,7 +26,8 @@ struct AttributeRequest {
 /// `generate:NAME?key=value&...`, a scene (.toml) or a replay file (.replay). A lone mesh gets the camera of
 /// frameCamera(). Throws kUsage with one line: file, place, what is wrong, what would be right. `width` and `height`
 /// replace the scene's raster size (0: its own, 1024 for a lone mesh) and shape cameras, but for one given as a matrix.
-/// A flat generator fills the clip volume by the identity matrix. Every mesh has to have the attribute.
+/// A flat generator fills the clip volume by the identity matrix. Every mesh has to have the attribute. A scene that
+/// lies far from 0 gets an origin (Scene::origin, extent.h); what a user would not expect is in its notes.
 Scene loadInput(const std::string& input, std::uint32_t width = 0, std::uint32_t height = 0,
                 const AttributeRequest& attribute = {});
 
@@ -39,9 +40,9 @@ struct Mesh {
   std::vector<glm::dvec3> positions;  ///< as the file has them: of text in double, of binary data in its type
   std::vector<glm::vec3> normals;
   std::vector<Triangle> triangles;
-  std::vector<float> attribute;  ///< empty, or one a vertex: what was asked for, but for a coordinate
-  bool float32 = false;          ///< the file's coordinates are float32: what made the file has rounded them
-  std::vector<std::string> notes = {};  ///< one line each: what a user would not expect of this file
+  std::vector<float> attribute;         ///< empty, or one a vertex: what was asked for, but for a coordinate
+  bool float32 = false;                 ///< the file's coordinates are float32: what made the file has rounded them
+  std::vector<std::string> notes = {};  ///< what a user would not expect of this file: a line each, without its name
 };
 Mesh readMesh(const std::filesystem::path& path, const AttributeRequest& attribute = {});
 /// `spec` without the `generate:` prefix, e.g. "icosphere?level=5".
@@ -54,9 +55,11 @@ struct GeneratorDoc {
 };
 const std::vector<GeneratorDoc>& generatorDocs();
 
-/// A perspective camera that sees the whole mesh from the front, a little above, as near as its sides allow.
-Matrix frameCamera(const Mesh& mesh, std::uint32_t width, std::uint32_t height);
-/// Appends a mesh to a scene that holds no clip positions (ids follow on).
+/// A perspective camera that sees all triangles of a scene from the front, a little above, as near as its sides allow.
+/// Vertices that no triangle uses, and triangles that cannot be drawn, do not count.
+Matrix frameCamera(const Scene& scene);
+/// Appends a mesh to a scene that holds no clip positions (ids follow on): its positions, less the scene's origin,
+/// rounded once.
 void append(Scene& scene, const Mesh& mesh);
 
 /// Clip-space positions (of the contract's transform, where the scene has object space ones) and triangles, bit-exact:
@@ -64,8 +67,8 @@ void append(Scene& scene, const Mesh& mesh);
 /// replay.cpp.
 void writeReplay(const std::filesystem::path& path, const Scene& scene);
 Scene readReplay(const std::filesystem::path& path);
-/// SHA-256 (hex) of what defines the image: size, matrix, positions or clip positions, triangles, and
-/// the attribute if there is one.
+/// SHA-256 (hex) of what defines the image, of any shading: size, matrix, positions or clip positions, normals,
+/// triangles, and where there are some the attribute with its name and the origin. Not the scene's own name.
 std::string sceneHash(const Scene& scene);
 
 }  // namespace tessera

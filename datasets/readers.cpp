@@ -103,6 +103,7 @@ Mesh readMesh(const std::filesystem::path& path, const AttributeRequest& attribu
     const bool binary = ply && text.substr(0, 200).find("format binary") != std::string::npos;
     const Checked checked = obj ? checkObj(name, text) : off ? checkOff(name, text) : checkPly(name, text);
     mesh = readByOpenMesh(name, extension.substr(1), checked, binary);
+    mesh.float32 = binary;  // OpenMesh gives float32 of each type
     if (property) mesh.attribute = readPlyScalar(name, text, checked, attribute);
   }
   completeNormals(mesh);

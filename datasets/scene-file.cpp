@@ -2,14 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <glm/mat3x3.hpp>
-#include <glm/matrix.hpp>
 #include <optional>
 
-#include "datasets/attribute.h"
 #include "datasets/camera.h"
+#include "datasets/notes.h"
+#include "datasets/placing.h"
 #include "datasets/text.h"
 #include "datasets/toml-table.h"
 #include "host/error.h"
@@ -17,42 +17,23 @@
 namespace tessera {
 namespace {
 
-std::optional<Matrix> readMatrix(const TomlTable& table, std::string_view key) {
+constexpr DoubleMatrix kNoCamera{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+
+std::optional<DoubleMatrix> readMatrix(const TomlTable& table, std::string_view key) {
   const auto values = table.numbers(key, 16);
   if (!values) return std::nullopt;
-  Matrix matrix;
+  DoubleMatrix matrix;
   for (std::size_t i = 0; i < 16; ++i) {
-    matrix[i] = static_cast<float>((*values)[i]);
-    if (!std::isfinite(matrix[i]))
-      table.refuse(key, *table.find(key), fmt::format("{} is beyond float32", (*values)[i]));
+    matrix[i] = (*values)[i];
+    if (!std::isfinite(static_cast<float>(matrix[i])))
+      table.refuse(key, *table.find(key), fmt::format("{} is beyond float32", matrix[i]));
   }
   return matrix;
 }
 
-/// Positions: ((m0 x + m1 y) + m2 z) + m3, each component, float32. Normals by the inverse transpose.
-void applyMatrix(Mesh& mesh, const Matrix& m) {
-  const auto row = [&](std::size_t r, const glm::vec3& p) {
-    return ((m[r] * p.x + m[r + 1] * p.y) + m[r + 2] * p.z) + m[r + 3];
-  };
-  for (glm::dvec3& position : mesh.positions) {
-    const glm::vec3 p(position);
-    position = {row(0, p), row(4, p), row(8, p)};
-  }
-  // The cofactor matrix: the inverse transpose times the determinant, there even where a matrix flattens. Its sign is
-  // taken out, so that normals stay on their side under a reflection.
-  const glm::dvec3 x(m[0], m[1], m[2]), y(m[4], m[5], m[6]), z(m[8], m[9], m[10]);
-  const double sign = glm::dot(x, glm::cross(y, z)) < 0 ? -1 : 1;
-  const glm::dvec3 cx = glm::cross(y, z) * sign, cy = glm::cross(z, x) * sign, cz = glm::cross(x, y) * sign;
-  for (glm::vec3& normal : mesh.normals) {
-    const glm::dvec3 n(normal), turned(glm::dot(cx, n), glm::dot(cy, n), glm::dot(cz, n));
-    const double length = glm::length(turned);
-    normal = length > 0 && std::isfinite(length) ? glm::vec3(turned / length) : glm::vec3(0, 0, 1);
-  }
-}
-
-/// Appends the mesh of one [[mesh]]; true if it fills clip space as it is.
-bool addMesh(Scene& scene, const std::string& file, const toml::table& table, const std::filesystem::path& folder,
-             const AttributeRequest& attribute) {
+/// The mesh of one [[mesh]]; `flat` becomes false if it does not fill clip space as it is.
+PlacedMesh readPlaced(const std::string& file, const toml::table& table, const std::filesystem::path& folder,
+                      const AttributeRequest& attribute, bool& flat) {
   const TomlTable mesh(file, table, "[[mesh]]", {"source", "matrix"});
   const toml::node& source = mesh.need("source", "a path relative to this file, generate:NAME or mesh:NAME");
   const auto text = source.value<std::string>();
@@ -60,25 +41,26 @@ bool addMesh(Scene& scene, const std::string& file, const toml::table& table, co
   const auto matrix = readMatrix(mesh, "matrix");
   if (matrix && !((*matrix)[12] == 0 && (*matrix)[13] == 0 && (*matrix)[14] == 0 && (*matrix)[15] == 1))
     mesh.fail(mesh.find("matrix")->source(), "matrix: a last row of 0, 0, 0, 1 would be right");
-  Source loaded = [&]() -> Source {
-    try {
-      return loadSource(*text, folder, attribute);
-    } catch (const Error& error) {
-      mesh.fail(source.source(), error.what());
-    }
-  }();
-  if (matrix) applyMatrix(loaded.mesh, *matrix);
-  append(scene, loaded.mesh);
-  return loaded.flat;
+  try {
+    Source loaded = loadSource(*text, folder, attribute);
+    flat &= loaded.flat;
+    return {fmt::format("{}: {}", file, *text), std::move(loaded.mesh), matrix};
+  } catch (const Error& error) {
+    mesh.fail(source.source(), error.what());
+  }
 }
 
-Matrix readCamera(const std::string& file, const toml::table& table, std::uint32_t width, std::uint32_t height) {
+/// For the scene's positions, which begin at its origin.
+Matrix readCamera(const std::string& file, const toml::table& table, const Scene& scene) {
   const TomlTable camera(file, table, "[camera]", {"matrix", "eye", "target", "up", "fov", "near", "far"});
   if (const auto matrix = readMatrix(camera, "matrix")) {
     if (table.size() > 1)
       camera.fail(table.source(),
                   "[camera] has matrix and other keys; matrix alone, or eye and target, would be right");
-    return *matrix;
+    const Matrix moved = clipFromPositions(*matrix, scene.origin);
+    if (!std::ranges::all_of(moved, [](float m) { return std::isfinite(m); }))
+      camera.refuse("matrix", *table.get("matrix"), "where the scene is, it goes beyond float32");
+    return moved;
   }
   camera.need("eye", "a matrix, or eye and target, would be right");
   camera.need("target", "a matrix, or eye and target, would be right");
@@ -101,7 +83,9 @@ Matrix readCamera(const std::string& file, const toml::table& table, std::uint32
                 fmt::format("near {} and far {}: 0 < near < far would be right", result.near, result.far));
   if (!(glm::dot(forward, forward) > 0)) camera.fail(table.source(), "eye and target are one point");
   if (!(glm::dot(side, side) > 0)) camera.fail(table.source(), "up lies along the line of sight");
-  return perspective(result, width, height);
+  result.eye -= scene.origin;
+  result.target -= scene.origin;
+  return perspective(result, scene.width, scene.height);
 }
 
 }  // namespace
@@ -129,15 +113,17 @@ Scene readSceneFile(const std::filesystem::path& path, std::uint32_t width, std:
   const toml::node& meshes = top.need("mesh", "at least one [[mesh]] would be right");
   if (!meshes.is_array_of_tables()) top.fail(meshes.source(), "mesh: [[mesh]] would be right");
   bool flat = true;
+  std::vector<PlacedMesh> placed;
   for (const toml::node& mesh : *meshes.as_array())
-    flat &= addMesh(scene, file, *mesh.as_table(), path.parent_path(), attribute);
-  setCoordinates(scene, attribute);
+    placed.push_back(readPlaced(file, *mesh.as_table(), path.parent_path(), attribute, flat));
+  placeMeshes(scene, std::move(placed), attribute);
   if (const toml::node* const camera = top.find("camera")) {
     if (!camera->is_table()) top.fail(camera->source(), "camera: [camera] would be right");
-    scene.clipFromObject = readCamera(file, *camera->as_table(), scene.width, scene.height);
-  } else if (!flat) {
-    scene.clipFromObject = frameCamera({{scene.positions.begin(), scene.positions.end()}, {}, {}, {}}, scene.width, scene.height);
+    scene.clipFromObject = readCamera(file, *camera->as_table(), scene);
+  } else {
+    scene.clipFromObject = flat ? clipFromPositions(kNoCamera, scene.origin) : frameCamera(scene);
   }
+  if (flat || top.has("camera")) noteUnseen(scene, file);
   return scene;
 }
 

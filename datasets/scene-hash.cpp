@@ -50,8 +50,13 @@ std::string sceneHash(const Scene& scene) {
   if (scene.clip.empty()) hash.add(std::span<const float>(scene.clipFromObject));
   hash.add(std::span<const glm::vec3>(scene.positions));
   hash.add(std::span<const glm::vec4>(scene.clip));
+  hash.add(std::span<const glm::vec3>(scene.normals));
   hash.add(std::span<const Triangle>(scene.triangles));
-  if (!scene.attribute.empty()) hash.add(std::span<const float>(scene.attribute));
+  if (!scene.attribute.empty()) {
+    hash.add(std::span<const char>(scene.attributeName));
+    hash.add(std::span<const float>(scene.attribute));
+  }
+  if (scene.origin != glm::dvec3(0)) hash.add(std::span<const double>(&scene.origin.x, 3));
   return hash.hex();
 }
 

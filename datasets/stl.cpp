@@ -41,6 +41,7 @@ constexpr std::size_t kHeader = 84, kFacet = 50;
 
 Mesh readBinary(std::string_view text, std::uint32_t count) {
   Facets facets;
+  facets.mesh.float32 = true;
   facets.mesh.triangles.reserve(count);
   for (std::uint32_t i = 0; i < count; ++i) {
     std::array<glm::vec3, 3> corners;

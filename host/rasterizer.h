@@ -6,6 +6,7 @@
 //   Coordinates  Clip space is Vulkan's: x right, y down, 0 <= z <= w. Pixel (i, j) is sampled at (i + 0.5, j + 0.5);
 //                row 0 is the top one. Rasters are 1 x 1 to 32768 x 32768.
 //   Ids          Triangle i of the scene has id i; each piece that clipping makes of it keeps that id.
+//   Positions    x, y, z are the scene's: the input's in double, less the scene's origin (Scene::origin), in float32.
 //   Transform    clip[r] = ((m[r][0] x + m[r][1] y) + m[r][2] z) + m[r][3].
 //   Dropped      In this order, each with its counter: an index out of range; a clip coordinate that is not finite.
 //   Clip         Planes in the order  z >= 0,  z <= w,  x >= -Gx w,  x <= Gx w,  y >= -Gy w,  y <= Gy w  with Gx =

@@ -52,6 +52,7 @@ Json sceneJson(const Run& run) {
                {"sha256", sceneHash(scene)},
                {"triangles", scene.triangles.size()},
                {"size", {scene.width, scene.height}}};
+  if (scene.origin != glm::dvec3(0)) json["origin"] = {scene.origin.x, scene.origin.y, scene.origin.z};
   if (!scene.attribute.empty()) json["attribute"] = {{"name", scene.attributeName}};
   if (run.attributeRange) json["attribute"]["range"] = {run.attributeRange->least, run.attributeRange->most};
   return json;

@@ -211,7 +211,9 @@ AttributeRequest attributeOf(const Options& options) {
 
 Scene sceneOf(const Options& options) {
   const Size size = options.size.empty() ? Size{0, 0} : parseSize(options.size);  // 0: the scene's own
-  return loadInput(options.input, size.width, size.height, attributeOf(options));
+  Scene scene = loadInput(options.input, size.width, size.height, attributeOf(options));
+  for (const std::string& note : scene.notes) fmt::print(stderr, "warning: {}\n", note);
+  return scene;
 }
 
 std::unique_ptr<Device> openDevice(const std::string& name, unsigned threads) {

@@ -34,15 +34,15 @@ TEST_CASE("Generators make what they say, the same bits on every machine") {
     const char* hash;
   };
   const auto& e = GENERATE(values<Expected>({
-      {"icosphere", 20480, "d74f30669cab5162321a7246cd28985439fb5d85b09f92db028c80cacbaaeba1"},
-      {"icosphere?level=0", 20, "7e336e2892818b06826020ce3e87735fe6598918b965053491918f4d4365c65c"},
-      {"torus", 16384, "81c8dd5f2f4e4c72e4435a61adc930a3e88bd410ec6b337e0f49c7ed38b8ef61"},
-      {"grid?columns=10&rows=7&angle=33.3", 140, "e0d5136251ffa84052db45cb8b716ab73449bd8847aa6d966837add259ee7dc2"},
-      {"fan", 1000, "24f6e1240e7b590c538484702b3bc0ae1954a6d7101d721d875d5baaed0a0301"},
-      {"slivers", 2000, "9bd55cdbce295793c4b15213c8313e24cd94bbebd9f3d795b7cec297c8231420"},
-      {"soup?count=5000", 5000, "954223d9ac6a2cd6220ae1cae2bbbd5b13dfa50dad8c781315e4232cde2c2baf"},
-      {"layers", 128, "a607d46af88f0a9526431ea3f996c7618b00c7a26bf51cb6239251f634ad3c9c"},
-      {"hot?count=5000", 5000, "99452452c6221c6c5ba62918fe4c7fa8af644ed9c5108c7cf902f7314c2e1b59"},
+      {"icosphere", 20480, "f83bd28298ed295f8827aaca59d22bccced09a920e13d158dc641cc3f0be170e"},
+      {"icosphere?level=0", 20, "d187e133b724b656f89c0fb22dc32e35eaaa8ec0e83ad952545e99f22f3c89a7"},
+      {"torus", 16384, "b32444e9f2049a5c341bdb99e14b428d3afb0abb64a06492b1d5917fb9e688b0"},
+      {"grid?columns=10&rows=7&angle=33.3", 140, "131a30d6d2e55871d9007ba1082c55d6fda425a19da8a9c110d59b238fc87df0"},
+      {"fan", 1000, "a7248aab1d0905bdad7eed7256b4a3097bd507785f5cf0d4522d9206100d090a"},
+      {"slivers", 2000, "19eb76c1903b8ece98b1d11f7e14419e028260f13b5fdd84f96b3898c57302ee"},
+      {"soup?count=5000", 5000, "6b6a9b5ba3b3f30fb24234dff4064d0f3deed16b4284fa98d91cc3b3dc431ce5"},
+      {"layers", 128, "58cb002dffa292b34d90f8ee21e2ab9ef201632a3c097c279ace4ea769b85d83"},
+      {"hot?count=5000", 5000, "1c944f440788184d81e03aa17c43dad27177983c85c7b7350644cd45c2a0b39b"},
   }));
   const Scene scene = loadInput(std::string("generate:") + e.spec);
   INFO(e.spec);

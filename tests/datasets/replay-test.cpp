@@ -132,7 +132,10 @@ TEST_CASE("The hash of a scene changes with everything that defines its image, a
     return sceneHash(other);
   };
   CHECK(hashWith([](Scene& s) { s.name = "other"; }) == hash);
-  CHECK(hashWith([](Scene& s) { s.normals.clear(); }) == hash);
+  CHECK(hashWith([](Scene& s) { s.normals.clear(); }) != hash);
+  CHECK(hashWith([](Scene& s) { s.normals[2] = -s.normals[2]; }) != hash);
+  CHECK(hashWith([](Scene& s) { s.origin.y = 64; }) != hash);
+  CHECK(hashWith([](Scene& s) { s.attribute.resize(s.positions.size()); }) != hash);
   CHECK(hashWith([](Scene& s) { s.width ^= 1; }) != hash);
   CHECK(hashWith([](Scene& s) { std::swap(s.width, s.height = 7); }) != hash);
   CHECK(hashWith([](Scene& s) { s.clipFromObject[5] = -s.clipFromObject[5]; }) != hash);

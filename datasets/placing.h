@@ -1,0 +1,29 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "datasets/input.h"
+
+namespace tessera {
+
+using DoubleMatrix = std::array<double, 16>;  ///< row-major, as a scene file gives it
+
+struct PlacedMesh {
+  std::string name;  ///< for messages
+  Mesh mesh;
+  std::optional<DoubleMatrix> worldFromMesh;  ///< its last row is 0, 0, 0, 1
+};
+
+/// append() of a mesh whose vertices are already where they belong in the scene.
+void appendPlaced(Scene& scene, const Mesh& mesh, const std::vector<glm::vec3>& positions);
+/// Puts the meshes into an empty scene: its origin, positions and normals, its attribute, its notes.
+void placeMeshes(Scene& scene, std::vector<PlacedMesh> meshes, const AttributeRequest& attribute);
+
+/// Rounds a matrix to clip space from the input's coordinates, for the scene's positions: M translate(origin), in
+/// double.
+Matrix clipFromPositions(const DoubleMatrix& clipFromInput, const glm::dvec3& origin);
+
+}  // namespace tessera
