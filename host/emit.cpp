@@ -49,12 +49,12 @@ const EmitTarget& emitTarget(std::string_view name) {
 }
 
 Emitted emitKernel(KernelCache& cache, const KernelRequest& request, const EmitTarget& target) {
-  Emitted emitted{request.stage, "", ""};
+  Emitted emitted{request.stage, "", "", ""};
   try {
-    if (target.name == "spirv")  // the very module that runs
-      emitted.bytes = readText(cache.get(request).binary);
-    else
-      emitted.bytes = writtenBySlang(request, target.name, cache.slangc(), cache.sourcesFolder());
+    Written written = writtenBySlang(request, target.name, cache.slangc(), cache.sourcesFolder());
+    emitted.bytes = target.name == "spirv" ? readText(cache.get(request).binary)  // the very module that runs
+                                           : std::move(written.text);
+    emitted.reflection = std::move(written.reflection);
   } catch (const Error& error) {
     emitted.complaint = error.what();
   }

@@ -23,6 +23,7 @@ struct Emitted {
   std::string stage;
   std::string bytes;      ///< the file; empty where the target cannot take the stage
   std::string complaint;  ///< then the compiler's first error
+  std::string reflection;  ///< slangc's JSON: parameters and where they go
 };
 Emitted emitKernel(KernelCache& cache, const KernelRequest& request, const EmitTarget& target);
 

@@ -141,7 +141,7 @@ struct KernelCache::State {
       add(settings.cxx.targetMacros);
       for (const std::string& flag : cxxBaseFlags()) add(flag);
       for (const std::string& flag : settings.cxxFlags) add(flag);
-      add(settings.boundsChecks ? "bounds checks" : "");
+      add(settings.boundsChecks ? "bounds checks 2" : "");
     }
     return sha256(all);
   }

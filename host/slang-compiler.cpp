@@ -19,16 +19,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Slang's prelude asks these macros at every index into a buffer or an array. Throwing crosses the entry point to the
-/// dispatch.
+/// Slang's prelude asks these macros at every index into a buffer or an array, in a member function of it (`data` is the
+/// buffer's). Throwing crosses the entry point to the dispatch, with three numbers: index, count, address of the buffer.
 constexpr const char* kBoundsChecks = R"(#include <stdexcept>
 #include <string>
-[[noreturn]] static void tesseraOutOfBounds(size_t index, size_t count)
+[[noreturn]] static void tesseraOutOfBounds(size_t index, size_t count, const void* data)
 {
-    throw std::out_of_range("index " + std::to_string(index) + " of " + std::to_string(count));
+    throw std::out_of_range(std::to_string((long long)index) + " " + std::to_string(count) + " " + std::to_string((size_t)data));
 }
-#define SLANG_BOUND_CHECK(index, count) if (!(index < count)) tesseraOutOfBounds(index, count);
-#define SLANG_BOUND_CHECK_FIXED_ARRAY(index, count) if (!(index < count)) tesseraOutOfBounds(index, count);
+#define SLANG_BOUND_CHECK(index, count) if (!(index < count)) tesseraOutOfBounds(index, count, data);
+#define SLANG_BOUND_CHECK_FIXED_ARRAY(index, count) if (!(index < count)) tesseraOutOfBounds(index, count, nullptr);
+#define SLANG_BOUND_CHECK_BYTE_ADDRESS(index, elementSize, bytes) \
+    if (!(index + elementSize <= bytes && index % 4 == 0)) tesseraOutOfBounds(index, bytes, data);
 )";
 
 std::string trimmed(const std::string& text) {
@@ -221,16 +223,21 @@ KernelInterface compileKernel(const KernelRequest& request, const CompileSetting
   }
 }
 
-std::string writtenBySlang(const KernelRequest& request, const std::string& target, const ToolInfo& slangc,
+Written writtenBySlang(const KernelRequest& request, const std::string& target, const ToolInfo& slangc,
                            const fs::path& slangSources) {
   const TemporaryFolder work(fs::temp_directory_path(), "tessera-emit");
-  const fs::path made = work.path() / "made";
+  const fs::path made = work.path() / "made", reflection = work.path() / "reflection.json";
   const bool cpp = request.route == Route::kCpp;
   std::vector<std::string> flags{"-target", target, "-fp-mode", "precise", "-line-directive-mode", "none"};
   if (cpp) flags = slangFlags(request.route);
+  if (target == "spirv") flags = slangFlags(request.route);
   if (target == "wgsl") flags.push_back("-DTESSERA_WGSL");  // slang/atomics.slang
+  // Buffers are called as in Slang; in C++ and CUDA they are members, which keep their numbers.
+  for (const char* const unmangled : {"wgsl", "glsl", "hlsl", "metal"})
+    if (target == unmangled) flags.push_back("-no-mangle");
+  flags.insert(flags.end(), {"-reflection-json", reflection.string()});
   runCompiler(request, slangCommand(request, slangc, slangSources, flags, work.path(), made), made);
-  return cpp ? wholeCpp(slangSources, readText(made)) : readText(made);
+  return {cpp ? wholeCpp(slangSources, readText(made)) : readText(made), readText(reflection)};
 }
 
 }  // namespace tessera

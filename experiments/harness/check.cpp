@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "host/cli/common.h"
+#include "host/cli/kernel-check.h"
 #include "host/cli/measure.h"
 #include "host/cli/probe-text.h"
 #include "host/cli/render-error.h"
@@ -129,6 +130,10 @@ double checkCell(Run& run, std::size_t number, const CheckTools& tools) {
   run.variant = plan.resolved;
   run.plan = plan.entries;
   compile(scene, asked, run.device, tools.kernels);
+  if (!tools.kernels.files().empty()) {
+    cli::KernelCheck checked(scene, asked, tools.kernels.files());
+    tools.frame([&] { checked.run(); });
+  }
 
   Rasterizer rasterizer(tools.device, tools.kernels);
   Frame frame;

@@ -10,6 +10,7 @@
 
 #include "datasets/input.h"
 #include "host/cli/common.h"
+#include "host/cli/kernel-check.h"
 #include "host/cli/measure.h"
 #include "host/cli/progress.h"
 #include "host/error.h"
@@ -101,6 +102,7 @@ class Meter {
     KernelCache kernels({.files = cell.kernels});
     compilingS_ += secondsOf([&] { cli::compileKernels(kernels, {makePlan(scene, cell.asked, device->info())}); });
     compiled_ += kernels.statistics().compiled;
+    cli::checkUserKernels(scene, cell.asked, cell.kernels);
     Rasterizer rasterizer(*device, kernels);
     GroupTimes times;
     Frame frame;

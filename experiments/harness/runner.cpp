@@ -95,6 +95,7 @@ std::vector<std::string> jobNames(const SweepOptions& options, const std::option
 Sweep sweepOf(const SweepOptions& options, const std::optional<Record>& begun) {
   const bool quick = options.quick || (begun && begun->head.at("quick").get<bool>());
   Sweep sweep = readSweep(options.file, quick);
+  if (!options.allowKernels && !sweep.foreignKernel.empty()) failUsage(sweep.foreignKernel);
   if (!begun) return sweep;
   const Json& head = begun->head.at("sweep");
   if (head.at("sha256") != sweep.sha256)

@@ -12,6 +12,7 @@ struct SweepOptions {
   std::filesystem::path folder;   ///< of the results
   bool resume = false;            ///< go on with what the folder holds; begins where it holds nothing
   bool quick = false;             ///< as [quick] says; what was begun so goes on so
+  bool allowKernels = false;      ///< run kernels that lie outside the file's folder
   std::vector<std::string> jobs;  ///< names of those to do; empty: all, or those with which it was begun
 };
 

@@ -219,7 +219,24 @@ std::vector<SweptAxis> readAxes(const TomlTable& table, const Variant& set) {
   return swept;
 }
 
-std::vector<SweptKernel> readKernels(const TomlTable& table, const fs::path& folder) {
+/// Links are followed on both sides.
+bool liesIn(const fs::path& folder, const fs::path& file) {
+  std::error_code error;
+  const fs::path home = fs::canonical(folder.empty() ? "." : folder, error), real = fs::canonical(file, error);
+  return !error && *real.lexically_relative(home).begin() != "..";
+}
+
+/// A kernel is native code. What lies beside the sweep came with it; what lies elsewhere was put there by another.
+std::string refusalOf(const TomlTable& table, const std::string& stage, const toml::node& element, const fs::path& file) try {
+  table.refuse(stage, element,
+               fmt::format("{}: lies outside the sweep's folder, and a kernel is native code that runs with your rights; "
+                           "--allow-kernels runs it, and so would a copy beside the sweep",
+                           file.string()));
+} catch (const Error& error) {
+  return error.what();
+}
+
+std::vector<SweptKernel> readKernels(const TomlTable& table, const fs::path& folder, std::string& foreign) {
   std::vector<SweptKernel> kernels;
   for (const auto& [key, node] : table.entries()) {
     if (std::ranges::find(stages(), key.str(), &Stage::name) == stages().end()) {
@@ -234,6 +251,8 @@ std::vector<SweptKernel> readKernels(const TomlTable& table, const fs::path& fol
         table.refuse(key.str(), element, fmt::format("{}: no such file", file.string()));
       if (!text.empty()) at(table, key.str(), element, [&] { return languageOf(file); });
       addOnce(table, key.str(), element, kernel.files, file);
+      if (!text.empty() && foreign.empty() && !liesIn(folder, file))
+        foreign = refusalOf(table, std::string(key.str()), element, file);
       kernel.texts.push_back(text);
     }
     kernels.push_back(std::move(kernel));
@@ -395,7 +414,7 @@ Sweep readSweep(const fs::path& path, bool quick) {
 
   sweep.set = readVariant(section(top, "set"));
   sweep.axes = readAxes(section(top, "axes"), sweep.set);
-  sweep.kernels = readKernels(section(top, "kernels"), folder);
+  sweep.kernels = readKernels(section(top, "kernels"), folder, sweep.foreignKernel);
   sweep.also = readAlso(top, sweep.set);
   sweep.leaveOut = readLeaveOut(top, sweep);
   sweep.reference = readReference(top, sweep);

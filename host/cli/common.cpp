@@ -102,7 +102,8 @@ void addSettings(CLI::App& app, Options& options) {
 void addKernelFiles(CLI::App& app, Options& options) {
   app.add_option(
          "--kernel", options.kernels,
-         "run FILE (.slang, .hlsl, or GLSL as .comp or .glsl) in place of a stage's own kernel; repeat for more")
+         "run FILE (.slang, .hlsl, or GLSL as .comp or .glsl) in place of a stage's own kernel; repeat for more. It is "
+         "native code, with your rights; a frame with bounds checks comes first")
       ->type_name("STAGE=FILE")
       ->allow_extra_args(false);
 }
@@ -265,6 +266,14 @@ void writeText(const fs::path& path, const std::string& text) {
     return;
   }
   if (!writeBeside(path, text)) fail(fmt::format("{}: could not be written", path.string()));
+}
+
+std::string quoted(const std::string& word) {
+  constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./:=+,-";
+  if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
+  std::string text = "'";
+  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return text + "'";
 }
 
 }  // namespace tessera::cli

@@ -63,4 +63,7 @@ void checkOutputPath(const std::filesystem::path& path, const std::string& input
 /// Written beside the name and renamed; "-" is stdout.
 void writeText(const std::filesystem::path& path, const std::string& text);
 
+/// A word as a shell takes it, in quotes where it needs them.
+std::string quoted(const std::string& word);
+
 }  // namespace tessera::cli

@@ -23,7 +23,7 @@ using namespace tessera::harness;
 
 struct ExpandOptions {
   std::string sweep;
-  bool quick = false, json = false, noEstimate = false;
+  bool quick = false, json = false, noEstimate = false, allowKernels = false;
 };
 
 std::string expandJson(const Sweep& sweep, const std::vector<Cell>& cells, const Survey& survey,
@@ -153,7 +153,10 @@ ExitCode expand(const ExpandOptions& options) {
     std::fflush(stdout);
   }
   std::optional<Estimate> time;
-  if (!options.noEstimate) time = estimate(sweep, all, surveyed);
+  const bool kernelsMayRun = options.allowKernels || sweep.foreignKernel.empty();
+  if (!options.noEstimate && !kernelsMayRun)
+    fmt::print(stderr, "nothing was rendered to say how long it will take: {}\n", sweep.foreignKernel);
+  if (!options.noEstimate && kernelsMayRun) time = estimate(sweep, all, surveyed);
   if (options.json)
     fmt::print("{}", expandJson(sweep, all, surveyed, time));
   else if (time)
@@ -170,6 +173,8 @@ Command addExpand(CLI::App& app) {
   command->add_option("SWEEP", options->sweep, "a sweep file (.toml): experiments/README.md has its keys")->required();
   command->add_flag("--quick", options->quick, "with the sizes, rounds and scenes of its [quick]");
   command->add_flag("--no-estimate", options->noEstimate, "render nothing: do not say how long it will take");
+  command->add_flag("--allow-kernels", options->allowKernels,
+                    "render with files of [kernels] that lie outside the sweep's folder, too: a kernel is native code");
   command->add_flag("--json", options->json, "print JSON");
   command->footer("Example:\n  tessera expand experiments/tile-size/sweep.toml");
   return {command, [options] { return expand(*options); }};

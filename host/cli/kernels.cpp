@@ -9,6 +9,7 @@
 #include "datasets/input.h"
 #include "host/cli/commands.h"
 #include "host/cli/common.h"
+#include "host/cli/manifest.h"
 #include "host/cli/measure.h"
 #include "host/cli/table.h"
 #include "host/emit.h"
@@ -40,27 +41,46 @@ std::vector<Plan> defaultPlans(const DeviceInfo& device) {
 }
 
 /// Without an input: a small scene that needs the stages which most variants have.
-Plan planToEmit(const KernelsOptions& options, const EmitTarget& target) {
-  Variant variant = variantOf(options);
-  if (!options.input.empty()) return makePlan(sceneOf(options), variant, target.device);
-  if (!variant.has("shade")) variant.set("shade", "flat");
-  if (!variant.has("clip")) variant.set("clip", "on");
-  return makePlan(loadInput("generate:icosphere?level=1"), variant, target.device);
+struct ToEmit {
+  Scene scene;
+  Variant variant;
+};
+ToEmit whatToEmit(const KernelsOptions& options) {
+  ToEmit what{{}, variantOf(options)};
+  what.scene = options.input.empty() ? loadInput("generate:icosphere?level=1") : sceneOf(options);
+  if (!options.input.empty()) return what;
+  if (!what.variant.has("shade")) what.variant.set("shade", "flat");
+  if (!what.variant.has("clip")) what.variant.set("clip", "on");
+  return what;
+}
+
+/// manifest.json and the buffers that it names; a line where the frame could not be recorded.
+std::vector<std::string> writeManifest(const std::filesystem::path& folder, const Manifest& manifest) {
+  if (!manifest.files.empty()) std::filesystem::create_directories(folder / "buffers");
+  for (const auto& [name, bytes] : manifest.files)
+    writeWhole(folder / name, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  writeWhole(folder / "manifest.json", manifest.text);
+  if (!manifest.complaint.empty())
+    fmt::print(stderr, "manifest.json has no commands, since the frame could not be run here: {}\n", manifest.complaint);
+  return {"manifest", grouped(manifest.text.size()), (folder / "manifest.json").string()};
 }
 
 ExitCode emit(const KernelsOptions& options) {
   namespace fs = std::filesystem;
   const EmitTarget& target = emitTarget(options.emit[0]);
   const fs::path folder = options.emit[1];
-  const Plan plan = planToEmit(options, target);
+  const auto [scene, variant] = whatToEmit(options);
+  const Plan plan = makePlan(scene, variant, target.device);
+  KernelCache kernels;
+  kernels.slangc();  // throws where there is none
   std::error_code error;
   fs::create_directories(folder, error);
   if (error || !fs::is_directory(folder))
     failUsage(fmt::format("--emit {} {}: the folder cannot be made; a name that is free, or a folder, would do",
                           target.name, folder.string()));
-  KernelCache kernels;
   std::vector<std::vector<std::string>> rows{{"stage", "bytes", "file"}};
   std::size_t missing = 0;
+  std::vector<WrittenStage> stages;
   for (KernelRequest request : kernelRequests(plan, {})) {
     request.route = target.route;
     const Emitted emitted = emitKernel(kernels, request, target);
@@ -69,13 +89,15 @@ ExitCode emit(const KernelsOptions& options) {
       writeText(file, emitted.bytes);
     else
       ++missing;
+    stages.push_back({emitted, emitted.complaint.empty() ? file.filename().string() : ""});
     rows.push_back(emitted.complaint.empty()
                        ? std::vector<std::string>{emitted.stage, grouped(emitted.bytes.size()), file.string()}
                        : std::vector<std::string>{emitted.stage, "-", emitted.complaint});
   }
+  rows.push_back(writeManifest(folder, manifestOf(scene, variant, plan, target, stages)));
   fmt::print("{}", table(rows));
   if (missing == 0) return ExitCode::kDone;
-  fmt::print(stderr, "{} of {} stages cannot be written for {}: the table says why\n", missing, rows.size() - 1,
+  fmt::print(stderr, "{} of {} stages cannot be written for {}: the table says why\n", missing, stages.size(),
              target.name);
   return ExitCode::kUnsupported;
 }
@@ -124,6 +146,8 @@ Command addKernels(CLI::App& app) {
   command->get_option("--device")->excludes(command->get_option("--emit"));
   command->footer(
       "--emit writes the stages that the plan runs: of INPUT, else of a small scene with clipping and shading. "
+      "manifest.json says how another host runs them: bindings, uniforms, sizes, and the frame of INPUT as a list of "
+      "commands, with the buffers' contents beside it. "
       "That a file is written does not make it valid: host/languages.md says what was judged, and by which compiler. "
       "Exit code 4 when the target cannot take a stage.\n\n"
       "Examples:\n"

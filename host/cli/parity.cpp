@@ -11,17 +11,23 @@
 #include "host/cli/commands.h"
 #include "host/cli/common.h"
 #include "host/cli/difference.h"
+#include "host/cli/kernel-check.h"
 #include "host/cli/measure.h"
 #include "host/cli/parity-oracle.h"
+#include "host/cli/parity-replay.h"
 #include "host/cli/parity-report.h"
+#include "host/cli/parity-witness.h"
 #include "host/cli/progress.h"
+#include "host/cli/table.h"
+#include "host/compiler-tools.h"
+#include "host/files.h"
 #include "host/vulkan/vulkan-device.h"
 
 namespace tessera::cli {
 namespace {
 
 struct ParityOptions : Options {
-  std::string json, replay = "parity-difference.replay";
+  std::string json, replay;
   unsigned repeat = 1;
 };
 
@@ -37,6 +43,14 @@ std::vector<Attempt> listAttempts(const ParityOptions& options) {
   if (attempts.empty())
     failUsage(fmt::format("--set route={}: no device that was named, or is here, takes it", variant.get("route")));
   return attempts;
+}
+
+/// Where a replay goes that nobody named a place for.
+std::filesystem::path placeOfReplay(const Scene& scene) {
+  const std::filesystem::path folder = defaultCacheFolder() / "replays";
+  std::error_code ignored;
+  std::filesystem::create_directories(folder, ignored);
+  return folder / (sceneHash(scene).substr(0, 12) + ".replay");
 }
 
 class Parity {
@@ -67,9 +81,30 @@ class Parity {
     const auto good = std::ranges::find(outcomes, Outcome::kEqual, &Outcome::verdict);
     for (auto& outcome : outcomes)
       if (outcome.verdict() == Outcome::kDifferent)
-        outcome.note += good == outcomes.end() ? "; no device agrees with the oracle, so no stage can be named"
-                                               : "; " + stageOf(good->attempt, outcome.attempt);
+        outcome.note += "; " + (good == outcomes.end() ? stageByWitness(outcome.attempt, oracle, progress)
+                                                       : stageOf(good->attempt, outcome.attempt));
     return outcomes;
+  }
+
+  /// The few triangles that show the first difference again, and how.
+  struct Replay {
+    Reduced reduced;
+    std::string options;  ///< of the command, beside the file
+  };
+  std::optional<Replay> replay(const std::vector<Outcome>& outcomes) {
+    const auto different = std::ranges::find(outcomes, Outcome::kDifferent, &Outcome::verdict);
+    const Side side = sideOf(different->attempt);
+    const auto first = std::ranges::find_if(outcomes, [](const Outcome& o) { return o.fromFirst.has_value(); });
+    std::optional<Side> other;
+    if (different->fromFirst) other.emplace(sideOf(first->attempt));
+    auto reduced = reduceToReplay(scene_, side, other ? &*other : nullptr, kernels_.files());
+    if (!reduced) return {};
+    std::string text = other ? "" : " --device " + quoted(different->attempt.device);
+    for (const auto& setting : settingsOf(options_))
+      if (!setting.starts_with("shade=")) text += " --set " + setting;  // a replay has no normals
+    for (const auto& [stage, file] : filesOfReplay(reduced->scene, side, kernels_.files()))
+      text += " --kernel " + quoted(stage + "=" + file.string());
+    return Replay{std::move(*reduced), text};
   }
 
  private:
@@ -83,6 +118,7 @@ class Parity {
       }
     }
     compileKernels(kernels_, plans);
+    checkUserKernels(scene_, attempts_.front().variant, kernels_.files());
   }
 
   Outcome tryOne(const Attempt& attempt, Oracle& oracle) {
@@ -125,6 +161,31 @@ class Parity {
     return firstStage(stages(good), good.name(), stages(different), different.name());
   }
 
+  Side sideOf(const Attempt& attempt) { return {*devices_[attempt.device], attempt.variant}; }
+
+  /// Where no device is right: by a variant that is, on the same device.
+  std::string stageByWitness(const Attempt& different, Oracle& oracle, Progress& progress) {
+    Device& device = *devices_[different.device];
+    KernelCache own;
+    for (const Witness& witness : witnesses(different.variant, !kernels_.files().empty())) {
+      progress.at(attempts_.size(), different.name() + " " + witness.name);
+      try {
+        const FrameOptions options{.keepStages = true};
+        const Frame good = Rasterizer(device, witness.files ? kernels_ : own).render(scene_, witness.variant, options);
+        Difference difference = oracle.against(good.image);
+        difference.colour = 0;  // the oracle's are those of the first device, which may be wrong
+        if (!difference.equal()) continue;
+        const Frame frame = Rasterizer(device, kernels_).render(scene_, different.variant, options);
+        return fmt::format("{} {} it is as the oracle; {}", different.name(), witness.name,
+                           firstStageAgainst(good, good.plan.resolved, different.name() + " " + witness.name, frame, frame.plan.resolved,
+                                             different.name()));
+      } catch (const Error&) {
+        continue;  // what does not run is no witness
+      }
+    }
+    return "no variant agrees with the oracle on this device, so no stage can be named";
+  }
+
   const ParityOptions& options_;
   const std::vector<Attempt> attempts_;
   KernelCache kernels_;
@@ -142,12 +203,36 @@ ExitCode exitCode(const std::vector<Outcome>& outcomes) {
   return code;
 }
 
+void writeReplayOf(Parity& parity, const std::vector<Outcome>& outcomes, const ParityOptions& options) {
+  std::fflush(stdout);  // what was found, before what may take a while
+  std::optional<Parity::Replay> replay;
+  try {
+    replay = parity.replay(outcomes);
+  } catch (const Error& error) {
+    fmt::print(stderr, "no replay: {}\n", error.what());
+    return;
+  }
+  if (!replay) {
+    fmt::print(stderr, "no replay: it begins after the transform and ends before the shading, and between them all is equal\n");
+    return;
+  }
+  const Scene& scene = replay->reduced.scene;
+  const std::filesystem::path file = options.replay.empty() ? placeOfReplay(scene) : std::filesystem::path(options.replay);
+  OutputFile output(file);
+  writeReplay(output.path(), scene);
+  output.commit();
+  fmt::print(stderr, "wrote {}: {} of {} triangles{}, which show it again: tessera parity {}{}\n", file.string(),
+             grouped(scene.triangles.size()), grouped(parity.scene().triangles.size()),
+             replay->reduced.least ? " (none can be left out)" : " (the time for fewer was up)", quoted(file.string()),
+             replay->options);
+}
+
 ExitCode runParity(const ParityOptions& options) {
   if (!options.json.empty()) checkOutputPath(options.json, options.input);
   // A replay that differs again is its own replay.
   std::error_code absent;
-  const bool replayed = std::filesystem::equivalent(options.replay, options.input, absent);
-  if (!replayed) checkOutputPath(options.replay, options.input);
+  const bool replayed = !options.replay.empty() && std::filesystem::equivalent(options.replay, options.input, absent);
+  if (!options.replay.empty() && !replayed) checkOutputPath(options.replay, options.input);
 
   Parity parity(options);
   const auto outcomes = parity.run();
@@ -159,13 +244,7 @@ ExitCode runParity(const ParityOptions& options) {
   if (!options.quiet)
     fmt::print(options.json == "-" ? stderr : stdout, "{}", parityReport(parity.scene(), outcomes));
   const ExitCode code = exitCode(outcomes);
-  if (code == ExitCode::kDifference && !replayed) {
-    writeReplay(options.replay, parity.scene());
-    std::string command = "tessera parity " + options.replay;
-    for (const auto& setting : settingsOf(options))
-      if (!setting.starts_with("shade=")) command += " --set " + setting;  // a replay has no normals
-    fmt::print(stderr, "wrote {}, which shows it again: {}\n", options.replay, command);
-  }
+  if (code == ExitCode::kDifference && !replayed) writeReplayOf(parity, outcomes, options);
   return code;
 }
 
@@ -187,14 +266,19 @@ Command addParity(CLI::App& app) {
       ->add_option("--json", options->json,
                    "write a result row (a line of JSON) a device and route to FILE, or - for stdout")
       ->type_name("FILE");
-  command->add_option("--replay", options->replay, "where a difference leaves the scene's clip-space triangles")
-      ->type_name("FILE")
-      ->capture_default_str();
+  command
+      ->add_option("--replay", options->replay,
+                   "where a difference leaves the few triangles that show it, in clip space; else in the folder replays of "
+                   "the kernel cache")
+      ->type_name("FILE");
   command->footer(
       "Without --device: the CPU and every Vulkan device, each Vulkan device by both routes (Slang to SPIR-V, and "
       "Slang to GLSL to glslang). --set commit=count compares how often each sample is hit. The oracle does not "
       "shade: colours are compared with the first device's, and so is all of an approximate variant, whose error is in the "
-      "table.\n\n"
+      "table. "
+      "A difference names the first stage and element that is not as on a device that is right; where none is, not as with "
+      "fewer settings or without --kernel on the same device. Its triangles are left out for up to 20 s, as long as the rest "
+      "shows it, and what is left is written.\n\n"
       "Examples:\n"
       "  tessera parity mesh:refined_elephant\n"
       "  tessera parity 'generate:soup?count=1000' --device vulkan:0 --set tile=8 --size 512");

@@ -6,6 +6,7 @@
 
 #include "host/cli/commands.h"
 #include "host/cli/common.h"
+#include "host/cli/kernel-check.h"
 #include "host/cli/measure.h"
 #include "host/cli/progress.h"
 #include "host/cli/render-error.h"
@@ -73,6 +74,7 @@ Framebuffer renderFrames(const RenderOptions& options, Device& device, KernelCac
   std::vector<Plan> plans{makePlan(scene, asked, run.device)};
   if (countWork) plans.push_back(makePlan(scene, counting(asked), run.device));
   compileKernels(kernels, plans);
+  checkUserKernels(scene, asked, kernels.files());
 
   Rasterizer rasterizer(device, kernels);
   Progress progress("render", options.repeat + 1);

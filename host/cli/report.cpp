@@ -13,6 +13,7 @@
 
 #include "experiments/harness/rows.h"
 #include "host/cli/commands.h"
+#include "host/cli/common.h"
 #include "host/compiler-tools.h"
 #include "host/home.h"
 #include "host/row.h"
@@ -54,9 +55,9 @@ std::string pythonProgram() {
                      python.string()));
   const fs::path own = defaultCacheFolder() / "report", ownPython = own / "bin/python";
   if (access(ownPython.c_str(), X_OK) == 0) return ownPython;
-  fail(fmt::format("{} does not run here; 'python3.11 -m venv {} && {}/bin/pip install --require-hashes -r {}' installs "
+  fail(fmt::format("{} does not run here; 'python3.11 -m venv {} && {} install --require-hashes -r {}' installs "
                    "what reports are made with, or set TESSERA_PYTHON to a Python 3.11 that has it",
-                   python.string(), own.string(), own.string(), home().pins.string()));
+                   python.string(), quoted(own.string()), quoted((own / "bin/pip").string()), quoted(home().pins.string())));
 }
 
 ExitCode runReport(const ReportOptions& options) {

@@ -22,6 +22,8 @@ Command addSweep(CLI::App& app) {
   command->add_option("--job", options->jobs, "only this scene on this device; may be repeated")
       ->type_name("SCENE@DEVICE")
       ->allow_extra_args(false);
+  command->add_flag("--allow-kernels", options->allowKernels,
+                    "run files of [kernels] that lie outside the sweep's folder: a kernel is native code");
   command->footer(
       "DIR holds journal.jsonl (a line a sample), rows.jsonl (a line a cell) and pictures of differences. Ctrl-C and "
       "kill -9 lose at most the sample that was running. Cells that overflow, are refused, run out of time or fail "

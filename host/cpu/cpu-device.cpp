@@ -11,11 +11,13 @@
 #include <fstream>
 #include <numeric>
 #include <random>
+#include <sstream>
 #include <stdexcept>
 #include <utility>
 
 #include "host/compiler-tools.h"
 #include "host/cpu/crew.h"
+#include "host/cpu/kernel-fault.h"
 #include "host/error.h"
 
 namespace tessera {
@@ -70,7 +72,10 @@ using Entry = void (*)(GroupRange*, void* entryPointParams, void* globalParams);
 
 class CpuKernel final : public Kernel {
  public:
-  explicit CpuKernel(const CompiledKernel& compiled) : compiled_(compiled) {
+  explicit CpuKernel(const CompiledKernel& compiled)
+      : compiled_(compiled),
+        description_(compiled.file.empty() ? "cpu: kernel " + compiled.stage
+                                           : fmt::format("kernel {} ({})", compiled.stage, compiled.file.string())) {
     if (compiled.route != Route::kCpp) fail(fmt::format("cpu: kernel {} was not compiled for a CPU", compiled.stage));
     library_ = dlopen(compiled.binary.c_str(), RTLD_NOW | RTLD_LOCAL);
     if (library_ == nullptr) fail(fmt::format("cpu: kernel {} cannot be loaded: {}", compiled.stage, dlerror()));
@@ -85,6 +90,8 @@ class CpuKernel final : public Kernel {
   CpuKernel(const CpuKernel&) = delete;
 
   const CompiledKernel& compiled() const override { return compiled_; }
+  /// As messages call it.
+  const char* description() const { return description_.c_str(); }
 
   /// Linear groups [begin, end): one call for each row of groups that they touch.
   void run(std::uint32_t begin, std::uint32_t end, void* globals) const {
@@ -98,6 +105,7 @@ class CpuKernel final : public Kernel {
 
  private:
   CompiledKernel compiled_;
+  std::string description_;
   void* library_ = nullptr;
   Entry entry_ = nullptr;
 };
@@ -176,14 +184,17 @@ class CpuDevice final : public Device {
     alignas(kCacheLine) std::byte globals[kMaxGlobals], frame[kMaxBlock];
     fillGlobals(cpu->compiled(), bindings, block, globals, frame);
     const std::uint64_t begin = nowNs();
+    setRunningKernel(cpu->description());
     try {
       if (shuffleSeed_ == 0)
         spread(*crew_, groups, [&](std::uint32_t first, std::uint32_t last) { cpu->run(first, last, globals); });
       else
         runShuffled(*cpu, groups, globals);
     } catch (const std::out_of_range& error) {  // Slang's bounds checks, where they are compiled in
-      fail(fmt::format("cpu: kernel {}: out of bounds: {}", cpu->compiled().stage, error.what()));
+      setRunningKernel(nullptr);
+      failOutOfBounds(*cpu, bindings, error.what());
     }
+    setRunningKernel(nullptr);
     times_.push_back({cpu->compiled().stage, begin, nowNs()});
   }
 
@@ -193,6 +204,20 @@ class CpuDevice final : public Device {
 
  private:
   static constexpr std::size_t kMaxGlobals = 1024, kMaxBlock = 4096;
+
+  /// `numbers` are those that host/slang-compiler.cpp has the check throw.
+  [[noreturn]] static void failOutOfBounds(const CpuKernel& kernel, std::span<const Binding> bindings,
+                                           const std::string& numbers) {
+    long long index = 0;
+    std::size_t count = 0, address = 0;
+    std::istringstream(numbers) >> index >> count >> address;
+    const auto holder = std::ranges::find_if(bindings, [&](const Binding& b) {
+      return address != 0 && b.buffer != nullptr && own(*b.buffer).data() == reinterpret_cast<std::byte*>(address);
+    });
+    const std::string what = holder == bindings.end() ? std::string("an array in it") : fmt::format("`{}`", holder->name);
+    throw Error(kernel.compiled().file.empty() ? ExitCode::kFailure : ExitCode::kUsage,  // a user's kernel is input
+                fmt::format("{}: out of bounds: index {} of {} elements of {}", kernel.description(), index, count, what));
+  }
 
   /// The struct of globals: a pointer to the block, and a pointer and an element count for each structured buffer.
   static void fillGlobals(const CompiledKernel& kernel, std::span<const Binding> bindings,

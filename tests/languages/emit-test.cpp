@@ -2,6 +2,7 @@
 #include "host/emit.h"
 
 #include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "fixture.h"
@@ -16,6 +17,28 @@ namespace {
 const std::map<std::string, std::string> kSigns{{"glsl", "#version 450"},     {"cpp", "tesseraAtomicAdd"},
                                                 {"wgsl", "@compute"},         {"hlsl", "[numthreads(64, 1, 1)]"},
                                                 {"metal", "[[kernel]] void"}, {"cuda", "extern \"C\" __global__ void"}};
+
+/// How each target says where a buffer goes.
+const std::map<std::string, std::string> kPlaces{{"spirv", "binding"}, {"glsl", "binding"}, {"cpp", "offset"},
+                                                 {"wgsl", "binding"},  {"hlsl", "register"}, {"metal", "buffer"},
+                                                 {"cuda", "offset"}};
+
+void checkManifest(const Desk& desk, const std::string& target) {
+  const auto manifest = nlohmann::json::parse(desk.read("made/here/manifest.json"));
+  CHECK(manifest.at("target") == target);
+  CHECK(manifest.at("stages").size() == 4);
+  CHECK(manifest.at("commands").size() > 4);
+  for (const auto& stage : manifest.at("stages")) {
+    const std::string text = desk.read("made/here/" + stage.at("file").get<std::string>());
+    CHECK(stage.at("workgroupSize").size() == 3);
+    CHECK_FALSE(stage.at("bindings").empty());
+    for (const auto& binding : stage.at("bindings")) {
+      INFO(binding.dump());
+      CHECK(binding.at("place").contains(kPlaces.at(target)));
+      if (target != "spirv") CHECK(contains(text, binding.at("inFile").get<std::string>()));
+    }
+  }
+}
 
 }  // namespace
 
@@ -37,7 +60,8 @@ TEST_CASE("Every stage of a variant is written for every target") {
     std::set<std::string> names;
     for (const auto& entry : std::filesystem::directory_iterator(desk.path() / "made/here"))
       names.insert(entry.path().filename().string());
-    CHECK(names.size() == 4);
+    CHECK(names.size() == 6);  // manifest.json and buffers/ beside them
+    checkManifest(desk, target.name);
   }
 }
 
