@@ -115,7 +115,7 @@ void checkFormulas(const Json& manifest) {
 
 TEST_CASE("A host that has the manifest alone runs the WGSL with the bits of the oracle") {
   const std::string input = "generate:soup?count=300&pixels=150";
-  for (const std::string settings : {"", "commit=two-pass binning=none", "binning=queue capacity=16 shade=flat"}) {
+  for (const std::string settings : {"shade=flat", "commit=two-pass binning=none"}) {
     Desk desk;
     std::string options;
     Variant variant;
