@@ -25,23 +25,24 @@ void setSize(Scene& scene, std::uint32_t width, std::uint32_t height) {
 
 }  // namespace
 
-Source loadSource(const std::string& source, const std::filesystem::path& folder, const AttributeRequest& attribute) {
+Source loadSource(const std::string& source, const std::filesystem::path& folder, const AttributeRequest& attribute,
+                  const ReadProgress& progress) {
   if (source.starts_with(kInstalledMesh))
-    return {readMesh(installedMesh(source.substr(kInstalledMesh.size())), attribute), false};
-  if (!source.starts_with(kGenerate)) return {readMesh(folder / source, attribute), false};
+    return {readMesh(installedMesh(source.substr(kInstalledMesh.size())), attribute, progress), false};
+  if (!source.starts_with(kGenerate)) return {readMesh(folder / source, attribute, progress), false};
   const std::string spec = source.substr(kGenerate.size());
   if (!attribute.name.empty() && !attribute.isCoordinate()) failAttribute(source, attribute.name, kCoordinates);
   return {generateMesh(spec), parseGenerator(spec).generator->flat};
 }
 
-Scene loadInput(const std::string& input, std::uint32_t width, std::uint32_t height,
-                const AttributeRequest& attribute) {
+Scene loadInput(const std::string& input, std::uint32_t width, std::uint32_t height, const AttributeRequest& attribute,
+                const ReadProgress& progress) {
   const std::filesystem::path path = input;
   const bool generated = input.starts_with(kGenerate), installed = input.starts_with(kInstalledMesh);
   const std::string extension = generated || installed ? "" : lowerCase(path.extension().string());
   Scene scene;
   setSize(scene, width, height);
-  if (extension == ".toml") return readSceneFile(path, width, height, attribute);
+  if (extension == ".toml") return readSceneFile(path, width, height, attribute, progress);
   if (extension == ".replay") {
     scene = readReplay(path);
     setSize(scene, width, height);
@@ -53,7 +54,7 @@ Scene loadInput(const std::string& input, std::uint32_t width, std::uint32_t hei
   scene.name = generated   ? input.substr(kGenerate.size())
                : installed ? input.substr(kInstalledMesh.size())
                            : path.stem().string();
-  Source source = loadSource(input, "", attribute);
+  Source source = loadSource(input, "", attribute, progress);
   std::vector<PlacedMesh> meshes;
   meshes.push_back({input, std::move(source.mesh), {}});
   placeMeshes(scene, std::move(meshes), attribute);

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,17 +23,20 @@ struct AttributeRequest {
   bool isCoordinate() const { return name == "x" || name == "y" || name == "z"; }
 };
 
-/// A mesh that OpenMesh reads (.obj .off .ply .stl), an installed one (`mesh:NAME`, see installed-mesh.h),
+/// Called now and then while a mesh file is read, with the bytes that are behind and those of the whole file.
+using ReadProgress = std::function<void(std::size_t done, std::size_t total)>;
+
+/// A mesh file (.obj .off .ply .stl), an installed one (`mesh:NAME`, see installed-mesh.h),
 /// `generate:NAME?key=value&...`, a scene (.toml) or a replay file (.replay). A lone mesh gets the camera of
 /// frameCamera(). Throws kUsage with one line: file, place, what is wrong, what would be right. `width` and `height`
 /// replace the scene's raster size (0: its own, 1024 for a lone mesh) and shape cameras, but for one given as a matrix.
 /// A flat generator fills the clip volume by the identity matrix. Every mesh has to have the attribute. A scene that
 /// lies far from 0 gets an origin (Scene::origin, extent.h); what a user would not expect is in its notes.
 Scene loadInput(const std::string& input, std::uint32_t width = 0, std::uint32_t height = 0,
-                const AttributeRequest& attribute = {});
+                const AttributeRequest& attribute = {}, const ReadProgress& progress = {});
 
-/// Positions, triangles in the file's order (polygons fanned from their first corner), normals if the file has them,
-/// else computed (area-weighted vertex normals). Every face is kept: OpenMesh's half-edge mesh is not used for reading.
+/// Positions, triangles in the file's order (a polygon of n corners is n - 2 of them, a fan from its first corner where it is
+/// convex), normals if the file has them, else computed (area-weighted vertex normals). Every face is kept.
 /// An index out of range becomes kBadIndex, which stays out of range when meshes are joined. Coordinates of binary
 /// files may be infinite or NaN.
 inline constexpr std::uint32_t kBadIndex = 0xffffffffu;
@@ -43,8 +47,10 @@ struct Mesh {
   std::vector<float> attribute;         ///< empty, or one a vertex: what was asked for, but for a coordinate
   bool float32 = false;                 ///< the file's coordinates are float32: what made the file has rounded them
   std::vector<std::string> notes = {};  ///< what a user would not expect of this file: a line each, without its name
+  std::uint64_t concavePolygons = 0;    ///< cut into triangles by ear clipping; the others are fans
 };
-Mesh readMesh(const std::filesystem::path& path, const AttributeRequest& attribute = {});
+Mesh readMesh(const std::filesystem::path& path, const AttributeRequest& attribute = {},
+              const ReadProgress& progress = {});
 /// `spec` without the `generate:` prefix, e.g. "icosphere?level=5".
 Mesh generateMesh(const std::string& spec);
 

@@ -16,6 +16,7 @@
 #include <iterator>
 
 #include "datasets/input.h"
+#include "datasets/scanner.h"
 #include "datasets/text.h"
 #include "host/error.h"
 #include "host/files.h"
@@ -31,21 +32,77 @@ glm::vec4 transform(const Matrix& m, const glm::vec3& p) {
   return {row(0), row(4), row(8), row(12)};
 }
 
-float fromBits(const Lines& lines, std::size_t i, std::string_view what = "clip position (4 words)") {
-  const std::string_view word = lines.word(i, what);
-  std::uint32_t bits = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), bits, 16);
-  if (word.size() != 8 || error != std::errc{} || end != word.data() + word.size())
-    lines.fail(fmt::format("'{}' is not the bits of a float32 in 8 hexadecimal digits", word));
-  return std::bit_cast<float>(bits);
-}
+class Reader {
+ public:
+  explicit Reader(const FileText& file)
+      : in_(file, Scanner::Syntax::kPlain), most_(static_cast<std::int64_t>(file.text.size())) {}
 
-/// Moves on to the line that begins with `word` and has `count` words after it.
-void expect(Lines& lines, std::string_view word, std::size_t count) {
-  lines.need(word);
-  if (lines.words()[0] != word || lines.words().size() != count + 1)
-    lines.fail(fmt::format("'{}' with {} values would be right", word, count));
-}
+  Scene read() {
+    expect(kFirst);
+    if (const std::string_view version = in_.wordInLine("the version"); version != "1")
+      in_.fail(fmt::format("version {}; 1 would be right", shown(version)));
+    Scene scene;
+    expect("name");
+    scene.name = in_.rest();
+    expect("size");
+    scene.width = integer("width", 1, kMaxExtent);
+    scene.height = integer("height", 1, kMaxExtent);
+    expect("vertices");
+    scene.clip.resize(count("count of vertices"));
+    for (glm::vec4& p : scene.clip) {
+      needLine("the last vertex");
+      for (int axis = 0; axis < 4; ++axis) p[axis] = fromBits("clip position (4 words)");
+    }
+    expect("triangles");
+    scene.triangles.resize(count("count of triangles"));
+    for (Triangle& t : scene.triangles) {
+      needLine("the last triangle");
+      for (std::uint32_t& v : t) v = integer("vertex index", 0, 0xffffffff);
+    }
+    needLine("end");
+    std::string_view word = in_.word();
+    if (word == "attribute") {
+      scene.attributeName = in_.wordInLine("name of the attribute");
+      scene.attribute.resize(scene.clip.size());
+      for (float& value : scene.attribute) {
+        needLine("the last value");
+        value = fromBits("value");
+      }
+      needLine("end");
+      word = in_.word();
+    }
+    if (word != "end" || in_.ahead()) in_.fail("'end', and then the file's end, would be right");
+    return scene;
+  }
+
+ private:
+  /// Goes to the next line; what is left of this one is too much.
+  void needLine(std::string_view what) {
+    if (in_.at() != 0 && in_.more()) in_.fail(fmt::format("{} where the line's end would be right", shown(in_.word())));
+    in_.needAhead(what);
+  }
+  void expect(std::string_view word) {
+    needLine(word);
+    if (in_.word() != word) in_.fail(fmt::format("'{}' would be right", word));
+  }
+  std::uint32_t integer(std::string_view what, std::int64_t least, std::int64_t most) {
+    if (!in_.more()) in_.fail(fmt::format("{} is missing", what));
+    return static_cast<std::uint32_t>(in_.integer(what, least, most));
+  }
+  /// Of things with a line each, so it is not beyond the file's size.
+  std::uint32_t count(std::string_view what) { return integer(what, 0, std::min<std::int64_t>(most_, 0xffffffff)); }
+  float fromBits(std::string_view what) {
+    const std::string_view word = in_.wordInLine(what);
+    std::uint32_t bits = 0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), bits, 16);
+    if (word.size() != 8 || error != std::errc{} || end != word.data() + word.size())
+      in_.fail(fmt::format("{} is not the bits of a float32 in 8 hexadecimal digits", shown(word)));
+    return std::bit_cast<float>(bits);
+  }
+
+  Scanner in_;
+  const std::int64_t most_;
+};
 
 }  // namespace
 
@@ -73,44 +130,10 @@ void writeReplay(const std::filesystem::path& path, const Scene& scene) {
 }
 
 Scene readReplay(const std::filesystem::path& path) {
-  const std::string text = readFile(path);
-  const auto most = static_cast<std::int64_t>(text.size());  // a line each, so no count is beyond it
-  Lines lines(path.string(), text, Lines::Comments::kNone);
-  expect(lines, kFirst, 1);
-  if (lines.words()[1] != "1") lines.fail(fmt::format("version '{}'; 1 would be right", lines.words()[1]));
-  Scene scene;
-  lines.need("name");
-  const auto& words = lines.words();
-  if (words[0] != "name") lines.fail("'name' would be right");
-  if (words.size() > 1) scene.name.assign(words[1].begin(), words.back().end());
-  expect(lines, "size", 2);
-  scene.width = static_cast<std::uint32_t>(lines.integer(1, "width", 1, kMaxExtent));
-  scene.height = static_cast<std::uint32_t>(lines.integer(2, "height", 1, kMaxExtent));
-  expect(lines, "vertices", 1);
-  scene.clip.resize(static_cast<std::size_t>(lines.integer(1, "count of vertices", 0, most)));
-  for (glm::vec4& p : scene.clip) {
-    lines.need("the last vertex");
-    p = {fromBits(lines, 0), fromBits(lines, 1), fromBits(lines, 2), fromBits(lines, 3)};
-  }
-  expect(lines, "triangles", 1);
-  scene.triangles.resize(static_cast<std::size_t>(lines.integer(1, "count of triangles", 0, most)));
-  for (Triangle& t : scene.triangles) {
-    lines.need("the last triangle");
-    for (std::size_t k = 0; k < 3; ++k)
-      t[k] = static_cast<std::uint32_t>(lines.integer(k, "vertex index", 0, 0xffffffff));
-  }
-  lines.need("end");
-  if (lines.words()[0] == "attribute") {
-    scene.attributeName = lines.word(1, "name of the attribute");
-    scene.attribute.resize(scene.clip.size());
-    for (float& value : scene.attribute) {
-      lines.need("the last value");
-      value = fromBits(lines, 0, "value");
-    }
-    lines.need("end");
-  }
-  if (lines.words() != std::vector<std::string_view>{"end"}) lines.fail("'end' with 0 values would be right");
-  return scene;
+  const std::string name = path.string(), bytes = readFile(path);
+  const ReadProgress none;
+  const FileText file{name, plainText(name, bytes), none};
+  return Reader(file).read();
 }
 
 }  // namespace tessera

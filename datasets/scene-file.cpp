@@ -33,7 +33,7 @@ std::optional<DoubleMatrix> readMatrix(const TomlTable& table, std::string_view 
 
 /// The mesh of one [[mesh]]; `flat` becomes false if it does not fill clip space as it is.
 PlacedMesh readPlaced(const std::string& file, const toml::table& table, const std::filesystem::path& folder,
-                      const AttributeRequest& attribute, bool& flat) {
+                      const AttributeRequest& attribute, const ReadProgress& progress, bool& flat) {
   const TomlTable mesh(file, table, "[[mesh]]", {"source", "matrix"});
   const toml::node& source = mesh.need("source", "a path relative to this file, generate:NAME or mesh:NAME");
   const auto text = source.value<std::string>();
@@ -42,7 +42,7 @@ PlacedMesh readPlaced(const std::string& file, const toml::table& table, const s
   if (matrix && !((*matrix)[12] == 0 && (*matrix)[13] == 0 && (*matrix)[14] == 0 && (*matrix)[15] == 1))
     mesh.fail(mesh.find("matrix")->source(), "matrix: a last row of 0, 0, 0, 1 would be right");
   try {
-    Source loaded = loadSource(*text, folder, attribute);
+    Source loaded = loadSource(*text, folder, attribute, progress);
     flat &= loaded.flat;
     return {fmt::format("{}: {}", file, *text), std::move(loaded.mesh), matrix};
   } catch (const Error& error) {
@@ -91,7 +91,7 @@ Matrix readCamera(const std::string& file, const toml::table& table, const Scene
 }  // namespace
 
 Scene readSceneFile(const std::filesystem::path& path, std::uint32_t width, std::uint32_t height,
-                    const AttributeRequest& attribute) {
+                    const AttributeRequest& attribute, const ReadProgress& progress) {
   const std::string file = path.string();
   const toml::table root = parseToml(file, readFile(path));
   const TomlTable top(file, root, "a scene", {"size", "mesh", "camera"});
@@ -115,7 +115,7 @@ Scene readSceneFile(const std::filesystem::path& path, std::uint32_t width, std:
   bool flat = true;
   std::vector<PlacedMesh> placed;
   for (const toml::node& mesh : *meshes.as_array())
-    placed.push_back(readPlaced(file, *mesh.as_table(), path.parent_path(), attribute, flat));
+    placed.push_back(readPlaced(file, *mesh.as_table(), path.parent_path(), attribute, progress, flat));
   placeMeshes(scene, std::move(placed), attribute);
   if (const toml::node* const camera = top.find("camera")) {
     if (!camera->is_table()) top.fail(camera->source(), "camera: [camera] would be right");

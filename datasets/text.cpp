@@ -1,97 +1,61 @@
 #include "datasets/text.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
-#include <charconv>
-#include <cmath>
-#include <fstream>
-#include <iterator>
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <new>
 
+#include "datasets/huge-pages.h"
 #include "host/error.h"
 
 namespace tessera {
-namespace {
 
-/// from_chars takes no plus sign, files do.
-std::string_view withoutPlus(std::string_view word) {
-  return word.size() > 1 && word[0] == '+' && word[1] != '-' ? word.substr(1) : word;
-}
-
-void splitWords(std::string_view line, std::vector<std::string_view>& words) {
-  constexpr std::string_view kSpace = " \t\r\v\f";
-  for (std::size_t begin = line.find_first_not_of(kSpace); begin != line.npos;) {
-    const std::size_t end = std::min(line.find_first_of(kSpace, begin), line.size());
-    words.push_back(line.substr(begin, end - begin));
-    begin = line.find_first_not_of(kSpace, end);
+FileBytes::FileBytes(const std::filesystem::path& path) {
+  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const auto failed = [&](const char* cause) { failUsage(fmt::format("{}: {}", path.string(), cause)); };
+  if (file < 0) failed(errno == ENOENT || errno == ENOTDIR ? "no such file" : std::strerror(errno));
+  struct Closer {
+    int file;
+    ~Closer() { close(file); }
+  } const closer{file};
+  struct stat status {};
+  if (fstat(file, &status) != 0) failed(std::strerror(errno));
+  if (S_ISDIR(status.st_mode)) failed("is a folder; a file would be right");
+  if (S_ISBLK(status.st_mode) || (S_ISCHR(status.st_mode) && isatty(file) != 1))
+    failed("is a device; a file would be right");
+  // One byte more than the file has, so that its end is met without growing; a pipe tells no size.
+  std::size_t capacity = 0, wanted = static_cast<std::size_t>(std::max<off_t>(status.st_size, 1 << 16)) + 1;
+  for (;;) {
+    if (size_ == capacity) {
+      capacity = std::max(wanted, 2 * capacity);
+      auto* const grown = static_cast<char*>(std::realloc(bytes_.get(), capacity));
+      if (!grown) throw std::bad_alloc();
+      static_cast<void>(bytes_.release());
+      bytes_.reset(grown);
+      preferHugePages(grown, capacity);
+    }
+    const ssize_t got = read(file, bytes_.get() + size_, capacity - size_);
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) failed(std::strerror(errno));
+    if (got == 0) break;
+    size_ += static_cast<std::size_t>(got);
   }
+  if (size_ == 0) failed("is empty");
 }
 
-}  // namespace
+std::string readFile(const std::filesystem::path& path) { return std::string(FileBytes(path).view()); }
 
-std::string readFile(const std::filesystem::path& path) {
-  std::error_code error;
-  const auto status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) failUsage(fmt::format("{}: no such file", path.string()));
-  if (std::filesystem::is_directory(status))
-    failUsage(fmt::format("{}: is a folder; a file would be right", path.string()));
-  std::ifstream file(path, std::ios::binary);
-  std::string text(std::istreambuf_iterator<char>(file), {});
-  if (!file) failUsage(fmt::format("{}: cannot be read", path.string()));
-  if (text.empty()) failUsage(fmt::format("{}: is empty", path.string()));
-  return text;
-}
-
-bool Lines::takeLine() {
-  if (at_ >= text_.size()) return false;
-  std::string_view line;
-  for (bool more = true; more && at_ < text_.size();) {
-    const std::size_t end = std::min(text_.find('\n', at_), text_.size());
-    line = text_.substr(at_, end - at_);
-    at_ = end + 1;
-    ++number_;
-    if (comments_ == Comments::kHash) line = line.substr(0, line.find('#'));
-    while (!line.empty() && line.back() == '\r') line.remove_suffix(1);
-    more = continued_ && !line.empty() && line.back() == '\\';
-    if (more) line.remove_suffix(1);
-    if (more || !joined_.empty()) joined_.append(line).push_back(' ');
-  }
-  splitWords(joined_.empty() ? line : joined_, words_);
-  return true;
-}
-
-bool Lines::next() {
-  do {
-    words_.clear();
-    joined_.clear();
-    if (!takeLine()) return false;
-  } while (words_.empty());
-  return true;
-}
-
-void Lines::need(std::string_view what) {
-  if (!next()) fail(fmt::format("the file ends before {}", what));
-}
-
-void Lines::fail(std::string_view wrong) const { failUsage(fmt::format("{}:{}: {}", name_, number_, wrong)); }
-
-std::string_view Lines::word(std::size_t i, std::string_view what) const {
-  if (i >= words_.size()) fail(fmt::format("{} is missing", what));
-  return words_[i];
-}
-
-float Lines::real(std::size_t i, std::string_view what) const {
-  const std::string_view text = word(i, what);
-  const auto value = toReal(text);
-  if (!value) fail(fmt::format("{}: '{}' is not a finite number", what, text));
-  return *value;
-}
-
-std::int64_t Lines::integer(std::size_t i, std::string_view what, std::int64_t least, std::int64_t most) const {
-  const std::string_view text = word(i, what);
-  const auto value = toInteger(text);
-  if (!value || *value < least || *value > most)
-    fail(fmt::format("{}: '{}' is not a whole number from {} to {}", what, text, least, most));
-  return *value;
+std::string_view plainText(const std::string& name, std::string_view text) {
+  using namespace std::string_view_literals;
+  const bool wide = text.starts_with("\xff\xfe"sv) || text.starts_with("\xfe\xff"sv) ||
+                    text.starts_with("\0\0\xfe\xff"sv);
+  if (wide) failUsage(fmt::format("{}: is UTF-16 or UTF-32; UTF-8 would be right", name));
+  return text.substr(text.starts_with("\xef\xbb\xbf"sv) ? 3 : 0);
 }
 
 std::string lowerCase(std::string_view text) {
@@ -101,35 +65,12 @@ std::string lowerCase(std::string_view text) {
   return lower;
 }
 
-std::optional<std::int64_t> toInteger(std::string_view word) {
-  word = withoutPlus(word);
-  std::int64_t value = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (error != std::errc{} || end != word.data() + word.size()) return std::nullopt;
-  return value;
-}
-
-std::optional<double> toDouble(std::string_view word) {
-  word = withoutPlus(word);
-  double value = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (error != std::errc{} || end != word.data() + word.size() || !std::isfinite(value)) return std::nullopt;
-  return value;
-}
-
-std::optional<float> toReal(std::string_view word) {
-  word = withoutPlus(word);
-  float value = 0;
-  auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  // What is too small for float32 is a number too (0 or a denormal); from_chars alone does not tell it from one too
-  // large.
-  if (error == std::errc::result_out_of_range) {
-    double wide = 0;
-    error = std::from_chars(word.data(), word.data() + word.size(), wide).ec;
-    value = static_cast<float>(wide);
-  }
-  if (error != std::errc{} || end != word.data() + word.size() || !std::isfinite(value)) return std::nullopt;
-  return value;
+std::string shown(std::string_view word) {
+  constexpr std::size_t kMost = 60;
+  std::string text(word.substr(0, kMost));
+  std::ranges::replace_if(
+      text, [](unsigned char c) { return c < ' ' || c == 0x7f; }, '?');
+  return fmt::format("'{}{}'", text, word.size() > kMost ? "..." : "");
 }
 
 }  // namespace tessera

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "datasets/text.h"
 #include "host/error.h"
 #include "host/suggest.h"
 
@@ -19,8 +20,12 @@ namespace {
 }  // namespace
 
 toml::table parseToml(const std::string& file, std::string_view text) {
+  // TOML itself takes no carriage return alone for a line's end.
+  std::string lines(plainText(file, text));
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    if (lines[i] == '\r' && (i + 1 == lines.size() || lines[i + 1] != '\n')) lines[i] = '\n';
   try {
-    return toml::parse(text, file);
+    return toml::parse(lines, file);
   } catch (const toml::parse_error& error) {
     failAt(file, error.source().begin, error.description());
   }

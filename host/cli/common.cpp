@@ -212,7 +212,14 @@ AttributeRequest attributeOf(const Options& options) {
 
 Scene sceneOf(const Options& options) {
   const Size size = options.size.empty() ? Size{0, 0} : parseSize(options.size);  // 0: the scene's own
-  Scene scene = loadInput(options.input, size.width, size.height, attributeOf(options));
+  Scene scene = [&] {
+    Progress progress(fmt::format("reading {}", options.input), 0);
+    return loadInput(options.input, size.width, size.height, attributeOf(options), [&](std::size_t done, std::size_t total) {
+      constexpr double kMegabyte = 1e6;
+      progress.at(0, fmt::format("{:.0f} of {:.0f} MB", static_cast<double>(done) / kMegabyte,
+                                 static_cast<double>(total) / kMegabyte));
+    });
+  }();
   for (const std::string& note : scene.notes) fmt::print(stderr, "warning: {}\n", note);
   return scene;
 }

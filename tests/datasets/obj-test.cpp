@@ -1,3 +1,4 @@
+#include <cmath>
 #include <glm/geometric.hpp>
 
 #include "fixture.h"
@@ -61,14 +62,65 @@ TEST_CASE("OBJ: normals are computed where the file has none") {
   CHECK(mesh.normals[4] == glm::vec3(0, 0, 1));  // in no triangle
 }
 
+TEST_CASE("OBJ: statements that have no triangles are skipped, curves and surfaces are named, other words are refused") {
+  const Files files;
+  const std::string skipped =
+      "vt 0 0\nvp 0 0\no a\ng b c\ns off\nmg 0\nusemtl red # 1\nmtllib a b.mtl\nl 1 2\np 1\nbevel on\nlod 3\n"
+      "c_interp on\nd_interp on\nshadow_obj x\ntrace_obj x\ncstype bezier\ndeg 3\nparm u 0 1\nend\n";
+  const Mesh plain = readMesh(files.write("a.obj", kFour + skipped + "f 1 2 3\n"));
+  CHECK(plain.triangles == std::vector<Triangle>{{0, 1, 2}});
+  CHECK(plain.notes.empty());
+  const Mesh curves = readMesh(files.write("a.obj", kFour + "surf 0 1 0 1 1 2 3 4\ncurv 0 1 1 2\nsurf 0 1 0 1 1 2 3 4\n"));
+  CHECK(curves.triangles.empty());
+  CHECK(curves.notes == std::vector<std::string>{"statements that are not read: 1 curv, 2 surf"});
+  for (const std::string word : {"fo", "F", "V", "face", "vertex", "f1", "\xef\xbb\xbfv", "1", "\\"})
+    CHECK(readError(files, "a.obj", kFour + word + " 1 2 3\n").starts_with("a.obj:5: '" + word + "' is no statement of OBJ"));
+}
+
+TEST_CASE("OBJ: a vertex may have a weight, a colour or both") {
+  const Files files;
+  const Mesh mesh =
+      readMesh(files.write("a.obj", "v 1 2 3 0.5\nv 4 5 6 0.1 0.2 0.3\nv 7 8 10 1 0.1 0.2 0.3\nf 1 2 3\n"));
+  CHECK(mesh.positions == std::vector<glm::dvec3>{{1, 2, 3}, {4, 5, 6}, {7, 8, 10}});
+  CHECK(readError(files, "a.obj", "v 1 2 3 4 5\n").starts_with("a.obj:1: a vertex has 5 numbers"));
+  CHECK(readError(files, "a.obj", "v 1 2 3 red\n").starts_with("a.obj:1: vertex (v x y z): 'red'"));
+}
+
+TEST_CASE("OBJ: negative normals count from the last one so far; corners in each form") {
+  const Files files;
+  const Mesh mesh = readMesh(files.write("a.obj", kFour + "vn 0 0 1\nf 1//-1 2//-1 3//-1\nvn 1 0 0\nvt 0 0\n"
+                                                          "f 1/1/-1 3/-1/-1 4/1/-1\nf 1/ 2// 3/1/\n"));
+  REQUIRE(mesh.triangles.size() == 3);
+  for (int k = 0; k < 3; ++k) CHECK(mesh.normals[mesh.triangles[0][k]] == glm::vec3(0, 0, 1));
+  for (int k = 0; k < 3; ++k) CHECK(mesh.normals[mesh.triangles[1][k]] == glm::vec3(1, 0, 0));
+  CHECK(mesh.triangles[2] == Triangle{0, 1, 2});
+}
+
+TEST_CASE("OBJ: coordinates keep the double that is nearest to their digits") {
+  const Files files;
+  const Mesh mesh = readMesh(files.write(
+      "a.obj", "v 4500000.123 .5 -5.\nv 0.1234567890123456789 1e22 1.7976931348623157e-290\nv +1e-400 9007199254740993 -0\n"
+               "v 123456789012345678901234567890e-20 1E+5 0e9999\nf 1 2 3\n"));
+  CHECK(mesh.positions[0] == glm::dvec3(4500000.123, 0.5, -5));
+  CHECK(mesh.positions[1] == glm::dvec3(0.1234567890123456789, 1e22, 1.7976931348623157e-290));
+  CHECK(mesh.positions[2] == glm::dvec3(0, 9007199254740992, 0));
+  CHECK(std::signbit(mesh.positions[2].z));
+  CHECK(mesh.positions[3] == glm::dvec3(1234567890.1234567890, 1e5, 0));
+}
+
 TEST_CASE("OBJ: broken files are refused where they are broken") {
   const Files files;
   CHECK(readError(files, "a.obj", "") == "a.obj: is empty");
-  CHECK(readError(files, "a.obj", "hello\nworld\n").starts_with("a.obj:2: no vertex"));
+  CHECK(readError(files, "a.obj", "g a\n#f 1 2 3\n").starts_with("a.obj:1: no vertex"));
   CHECK(readError(files, "a.obj", kFour + "v 1 2\n").starts_with("a.obj:5: vertex (v x y z) is missing"));
   CHECK(readError(files, "a.obj", kFour + "v 1 2 x\n").starts_with("a.obj:5: vertex (v x y z): 'x'"));
   CHECK(readError(files, "a.obj", kFour + "v 1 inf 2\n").starts_with("a.obj:5: vertex (v x y z): 'inf'"));
   CHECK(readError(files, "a.obj", kFour + "f 1 2\n") == "a.obj:5: a face has fewer than 3 corners");
   CHECK(readError(files, "a.obj", kFour + "f 1 2 /3\n").starts_with("a.obj:5: corner '/3'"));
   CHECK(readError(files, "a.obj", kFour + "f 1 2 3d\n").starts_with("a.obj:5: corner '3d'"));
+  CHECK(readError(files, "a.obj", kFour + "f\n") == "a.obj:5: a face has fewer than 3 corners");
+  CHECK(readError(files, "a.obj", kFour + "f 1 2/x 3\n").starts_with("a.obj:5: corner '2/x'"));
+  CHECK(readError(files, "a.obj", kFour + "f 1 2//x 3\n").starts_with("a.obj:5: corner '2//x'"));
+  CHECK(readError(files, "a.obj", kFour + "f 1 2//1/1 3\n").starts_with("a.obj:5: corner '2//1/1'"));
+  CHECK(readError(files, "a.obj", kFour + "v 1 1e39 2\n").starts_with("a.obj:5: vertex (v x y z): '1e39'"));
 }

@@ -56,6 +56,49 @@ TEST_CASE("OFF: no faces make an empty mesh") {
   CHECK(loadInput(files.write("b.off", "OFF\n0 0 0\n")).triangles.empty());
 }
 
+TEST_CASE("OFF: the header and the data need not stand one record a line") {
+  const Files files;
+  const std::vector<Triangle> expected{{0, 1, 2}, {0, 2, 3}};
+  for (const std::string text : {
+           "OFF4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n",
+           "OFF 4 2\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n",
+           "# first\n\n  OFF # here\n#\n4 2 # too\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n# last\n\n",
+           "OFF 4 2 0 0 0 0 1 0 0 1 1 0 0 1 0 3 0 1 2 3 0 2 3",
+           "OFF\n4\n2\n0\n0 0\n0 1 0 0 1 1\n0 0 1 0 3 0\n1 2 3 0 2\n3",
+           "OFF\n4 2 0\n0 0 0 1 0 0\n1 1 0 0 1 0\n3 0 1 2 3 0 2 3\n",
+           "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0\n 1 2\n3 0 2 3\n",
+           "OFF\n4 2 0\n0 0 0 9 9 9\n1 0 0 9 9 9 9\n1 1 0\n0 1 0\n3 0 1 2 1 0 0\n3 0 2 3 7\n",
+           "NOFF\n4 2 0\n0 0 0 0 0 1\n1 0 0 0 0 1\n1 1 0 0 0 1\n0 1 0 0 0 1\n3 0 1 2\n3 0 2 3 0.5 0.5 0.5 1\n",
+       }) {
+    INFO(text);
+    const Mesh mesh = readMesh(files.write("a.off", text));
+    CHECK(mesh.positions == std::vector<glm::dvec3>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
+    CHECK(mesh.triangles == expected);
+  }
+  std::string all = "STCNOFF 3 1 0";
+  for (const char* const p : {"0 0 0", "1 0 0", "0 1 0"}) all += std::string(" ") + p + " 0 0 1  0.5 0.5 0.5 1  0.25 0.75";
+  CHECK(readMesh(files.write("b.off", all + " 3 0 1 2")).triangles == std::vector<Triangle>{{0, 1, 2}});
+}
+
+TEST_CASE("OFF: faces of fewer than three corners are counted, and counts must fit the data") {
+  const Files files;
+  const std::string points = "0 0 0\n1 0 0\n0 1 0\n";
+  const Mesh mesh = readMesh(files.write("a.off", "OFF\n3 4 0\n" + points + "2 0 1\n3 0 1 2\n1 0\n0\n"));
+  CHECK(mesh.triangles == std::vector<Triangle>{{0, 1, 2}});
+  CHECK(mesh.notes == std::vector<std::string>{"3 faces have fewer than three corners and no triangle"});
+  CHECK(readError(files, "a.off", "OFF\n3 1 0\n" + points + "3 0 1 2\n3 2 1 0\n")
+            .starts_with("a.off:7: '3' after the last of 3 vertices and 1 faces: the counts are wrong"));
+  CHECK(readError(files, "a.off", "OFF\n2 1 0\n" + points + "3 0 1 2\n").starts_with("a.off:"));
+  CHECK(readError(files, "a.off", "OFF\n4 1 0\n" + points + "3 0 1 2\n").starts_with("a.off:"));
+  CHECK(readError(files, "a.off", "OFF\n3 1 0\n" + points + "3 0 1 2 9 9\n")
+            .starts_with("a.off:6: 2 numbers follow the face on its line"));
+  CHECK(readError(files, "a.off", "OFF\n3 1 0\n" + points + "4 0 1 2\n") == "a.off:6: corner of a face is missing");
+  CHECK(readError(files, "a.off", "4OFF\n3 1 0\n").starts_with("a.off:1: '4OFF': vertices of four or n coordinates"));
+  CHECK(readError(files, "a.off", "nOFF 3\n3 1 0\n").starts_with("a.off:1: 'nOFF': vertices of four or n coordinates"));
+  CHECK(readError(files, "a.off", "OFFx 3 1 0\n").starts_with("a.off:1: 'OFFx' where OFF"));
+  CHECK(readError(files, "a.off", "off 3 1 0\n").starts_with("a.off:1: 'off' where OFF"));
+}
+
 TEST_CASE("OFF: broken files are refused where they are broken") {
   const Files files;
   const std::string three = "OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n";

@@ -100,7 +100,7 @@ TEST_CASE("A broken replay file is refused where it is broken") {
     return line.substr(path.size());
   };
   CHECK(broken("replay 1", "replay 2") == ":1: version '2'; 1 would be right");
-  CHECK(broken("tessera-replay", "tessera") == ":1: 'tessera-replay' with 1 values would be right");
+  CHECK(broken("tessera-replay", "tessera") == ":1: 'tessera-replay' would be right");
   CHECK(broken("size 1009", "size 0").starts_with(":3: width: '0'"));
   CHECK(broken("size 1009", "size 32769").starts_with(":3: width: '32769'"));
   CHECK(broken("vertices 2", "vertices 99999999999").starts_with(":4: count of vertices"));

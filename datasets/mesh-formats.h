@@ -1,0 +1,16 @@
+// The readers behind readMesh(), one a format. Each throws kUsage with "file:place: what is wrong", and gives the zero vector
+// for a normal that the file does not give.
+#pragma once
+
+#include "datasets/input.h"
+#include "datasets/scanner.h"
+
+namespace tessera {
+
+Mesh readObj(const FileText& file);
+Mesh readOff(const FileText& file);
+/// The attribute, where it has a name and is no coordinate, is a scalar property of the vertices.
+Mesh readPly(const FileText& file, const AttributeRequest& attribute);
+Mesh readStl(const FileText& file);
+
+}  // namespace tessera
