@@ -1,28 +1,69 @@
 #include "datasets/installed-mesh.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
+#include "datasets/text.h"
 #include "host/compiler-tools.h"
 #include "host/error.h"
 #include "host/files.h"
 #include "host/subprocess.h"
+#include "host/suggest.h"
 
 namespace tessera {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+constexpr const char* kArchive = "/usr/share/doc/libcgal-demo/data.tar.gz";
+
+}  // namespace
+
+std::vector<std::string> installedMeshes() {
+  std::error_code error;
+  if (!fs::is_regular_file(kArchive, error)) return {};
+  const fs::path folder = defaultCacheFolder() / "meshes", list = folder / "names";
+  std::string members;
+  const auto written = fs::last_write_time(list, error);
+  if (!error && written > fs::last_write_time(kArchive, error)) {
+    members = readFile(list);
+  } else {
+    const fs::path tar = findProgram("tar");
+    if (tar.empty()) return {};
+    const ProcessResult result = runProcess({tar.string(), "-tzf", kArchive});
+    if (!result.ok()) return {};
+    members = result.output;
+    fs::create_directories(folder, error);
+    writeBeside(list, members);  // where it cannot be kept it is listed again
+  }
+  constexpr std::string_view kBegin = "data/meshes/", kEnd = ".off";
+  std::vector<std::string> names;
+  for (std::string_view rest = members; !rest.empty();) {
+    std::string_view line = rest.substr(0, rest.find('\n'));
+    rest.remove_prefix(std::min(line.size() + 1, rest.size()));
+    if (!line.starts_with(kBegin) || !line.ends_with(kEnd)) continue;
+    line.remove_prefix(kBegin.size());
+    line.remove_suffix(kEnd.size());
+    if (line.find('/') == line.npos) names.emplace_back(line);
+  }
+  std::ranges::sort(names);
+  return names;
+}
+
 fs::path installedMesh(std::string_view name) {
-  const fs::path archive = "/usr/share/doc/libcgal-demo/data.tar.gz";
+  const fs::path archive = kArchive;
   const bool plain = !name.empty() && std::ranges::all_of(name, [](unsigned char c) {
     return std::isalnum(c) || c == '-' || c == '_' || c == '.';
   });
-  if (!plain) failUsage(fmt::format("mesh:{}: not a name; one such as mesh:refined_elephant would be right", name));
   std::error_code error;
   if (!fs::is_regular_file(archive, error))
     failUsage(fmt::format("mesh:{}: {} is not there; Debian's libcgal-demo, with its doc folder, has it", name,
                           archive.string()));
+  if (name.empty()) failUsage(fmt::format("mesh: of what name? There are {}", fmt::join(installedMeshes(), ", ")));
+  if (!plain) failUsage(fmt::format("mesh:{}: not a name; one such as mesh:refined_elephant would be right", name));
   const fs::path folder = defaultCacheFolder() / "meshes", mesh = folder / fmt::format("{}.off", name);
   // Unpacked anew where the package is newer.
   const auto unpacked = fs::last_write_time(mesh, error);
@@ -35,9 +76,16 @@ fs::path installedMesh(std::string_view name) {
   const std::string member = fmt::format("data/meshes/{}.off", name);
   const ProcessResult result =
       runProcess({tar.string(), "-xzf", archive.string(), "-C", work.path().string(), "--touch", "--", member});
-  if (!result.ok())
-    failUsage(fmt::format("mesh:{}: {} could not be taken out of {} (tar -tzf lists what is in it)", name, member,
-                          archive.string()));
+  if (!result.ok()) {
+    const auto names = installedMeshes();
+    if (std::ranges::find(names, name) == names.end()) {
+      const std::string close = nearest(name, names);
+      failUsage(fmt::format("mesh:{}: no such mesh; {}'tessera render mesh:' lists the {} there are", name,
+                            close.empty() ? "" : fmt::format("did you mean mesh:{}? ", close), names.size()));
+    }
+    failUsage(fmt::format("mesh:{}: {} could not be taken out of {}: {}", name, member, archive.string(),
+                          result.output));
+  }
   fs::rename(work.path() / member, mesh, error);
   if (error) fail(fmt::format("{}: cannot be written: {}", mesh.string(), error.message()));
   return mesh;

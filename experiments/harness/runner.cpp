@@ -50,6 +50,7 @@ Json headOf(const Sweep& sweep, const std::vector<Cell>& cells, const std::vecto
             {"sweep", {{"title", sweep.title}, {"question", sweep.question}, {"sha256", sweep.sha256}}},
             {"quick", sweep.quick},
             {"rounds", sweep.rounds},
+            {"devices", sweep.devices},
             {"repeats", sweep.repeats},
             {"warm_up", sweep.warmUp},
             {"time_limit", sweep.timeLimitS},
@@ -91,10 +92,27 @@ std::vector<std::string> jobNames(const SweepOptions& options, const std::option
   return begun;
 }
 
+/// The rounds and devices of a sweep that was begun. Older journals do not name the devices: they are the file's.
+Changes begunChanges(const Record& begun) {
+  const Json devices = begun.head.value("devices", Json::array());
+  return {begun.head.at("rounds").get<unsigned>(), devices.get<std::vector<std::string>>()};
+}
+
 /// What was begun goes on if it is the same file, read as it was then.
 Sweep sweepOf(const SweepOptions& options, const std::optional<Record>& begun) {
   const bool quick = options.quick || (begun && begun->head.at("quick").get<bool>());
-  Sweep sweep = readSweep(options.file, quick);
+  Changes changes = options.changes;
+  if (begun) {
+    changes = begunChanges(*begun);
+    if (options.changes.rounds != 0 && options.changes.rounds != changes.rounds)
+      failUsage(fmt::format("--rounds {}: the sweep in {} was begun with {}; without --rounds it goes on with these",
+                            options.changes.rounds, options.folder.string(), changes.rounds));
+    if (!options.changes.devices.empty() && !changes.devices.empty() && options.changes.devices != changes.devices)
+      failUsage(fmt::format("--devices {}: the sweep in {} was begun with {}; without --devices it goes on with these",
+                            fmt::join(options.changes.devices, ","), options.folder.string(),
+                            fmt::join(changes.devices, ",")));
+  }
+  Sweep sweep = readSweep(options.file, quick, changes);
   if (!options.allowKernels && !sweep.foreignKernel.empty()) failUsage(sweep.foreignKernel);
   if (!begun) return sweep;
   const Json& head = begun->head.at("sweep");
@@ -399,6 +417,7 @@ void runSweep(const SweepOptions& options) {
   }
   runner.close();
   deriveRows(options.folder);
+  if (options.quiet) return;
   if (resumed && wasDone)
     fmt::print("{}: the sweep had ended already: nothing was left to do\n", options.folder.string());
   else

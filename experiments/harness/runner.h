@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "experiments/harness/sweep-file.h"
+
 namespace tessera::harness {
 
 struct SweepOptions {
@@ -13,6 +15,8 @@ struct SweepOptions {
   bool resume = false;            ///< go on with what the folder holds; begins where it holds nothing
   bool quick = false;             ///< as [quick] says; what was begun so goes on so
   bool allowKernels = false;      ///< run kernels that lie outside the file's folder
+  bool quiet = false;             ///< no summary
+  Changes changes;                ///< of the file; what was begun goes on with those it was begun with
   std::vector<std::string> jobs;  ///< names of those to do; empty: all, or those with which it was begun
 };
 

@@ -169,15 +169,19 @@ std::vector<Size> readSizes(const TomlTable& table) {
   return sizes;
 }
 
+/// It becomes a part of a folder's name.
+bool isDeviceName(std::string_view name) {
+  const bool known = name == "cpu" || name == "vulkan" || (name.starts_with("vulkan:") && name.size() > 7);
+  return known && name.find_first_of("/\r\n") == name.npos;
+}
+
 std::vector<std::string> readDevices(const TomlTable& top) {
   const toml::array* const list = top.list("devices", "a list such as [\"cpu\", \"vulkan\"]");
   if (!list) return {"cpu"};
   std::vector<std::string> devices;
   for (const toml::node& node : *list) {
     const std::string name = textOf(top, "devices", node, "a device's name in quotes");
-    const bool known = name == "cpu" || name == "vulkan" || (name.starts_with("vulkan:") && name.size() > 7);
-    // It becomes a part of a folder's name.
-    if (!known || name.find_first_of("/\r\n") != std::string::npos)
+    if (!isDeviceName(name))
       top.refuse("devices", node,
                  fmt::format("no device '{}'; cpu, vulkan, vulkan:N or vulkan:NAME would be right", name));
     addOnce(top, "devices", node, devices, name);
@@ -345,6 +349,21 @@ void checkCells(const TomlTable& top, const Sweep& sweep) {
   top.fail(place, "leave-out: no cell is left; fewer combinations would be right");
 }
 
+// ---- the command line
+
+void change(Sweep& sweep, const Changes& changes) {
+  if (changes.rounds != 0) sweep.rounds = changes.rounds;
+  if (changes.devices.empty()) return;
+  sweep.devices.clear();
+  for (const std::string& name : changes.devices) {
+    if (!isDeviceName(name))
+      failUsage(fmt::format("--devices {}: no such device; cpu, vulkan, vulkan:N or vulkan:NAME would be right", name));
+    if (std::ranges::find(sweep.devices, name) != sweep.devices.end())
+      failUsage(fmt::format("--devices {}: is there twice; once would be right", name));
+    sweep.devices.push_back(name);
+  }
+}
+
 // ---- [quick]
 
 void readQuick(const TomlTable& top, Sweep& sweep, bool quick) {
@@ -384,7 +403,7 @@ std::string sha256(std::string_view text) {
   return fmt::format("{:02x}", fmt::join(digest, ""));
 }
 
-Sweep readSweep(const fs::path& path, bool quick) {
+Sweep readSweep(const fs::path& path, bool quick, const Changes& changes) {
   Sweep sweep;
   sweep.path = fs::absolute(path).lexically_normal();
   sweep.text = readFile(path);
@@ -433,6 +452,7 @@ Sweep readSweep(const fs::path& path, bool quick) {
     checkExpectation(
         {file, *one, "[[expect]]", {"where", "scene", "status", "error", "truth_error", "counters"}, "expect."}, sweep);
   readQuick(top, sweep, quick);
+  change(sweep, changes);
   return sweep;
 }
 

@@ -73,14 +73,20 @@ struct Sweep {
   bool quick = false;         ///< [quick] has taken the place of scenes, sizes, rounds and repeats
 };
 
+/// What the command line says in place of the file.
+struct Changes {
+  unsigned rounds = 0;               ///< 0: the file's
+  std::vector<std::string> devices;  ///< empty: the file's
+};
+
 /// In hexadecimal digits.
 std::string sha256(std::string_view text);
 
 /// Throws kUsage with "file:line:column: key: what is wrong; what would be right". Checks every key (those of [plot]
 /// and
 /// [[expect]] too, which others read), axes and values against the list of axes, and that the reference is one of the
-/// cells. `quick`: as [quick] says, which has to be there.
-Sweep readSweep(const std::filesystem::path& path, bool quick = false);
+/// cells. `quick`: as [quick] says, which has to be there. `changes` come last, and are checked as the file's are.
+Sweep readSweep(const std::filesystem::path& path, bool quick = false, const Changes& changes = {});
 
 /// All that varies, each with its values: [axes] in the file's order, axes that only [[also]] has, kernels as
 /// "kernel:STAGE".

@@ -5,6 +5,7 @@
 #include <functional>
 #include <string>
 
+#include "experiments/harness/sweep-file.h"
 #include "host/error.h"
 
 namespace tessera::cli {
@@ -24,8 +25,13 @@ Command addVariants(CLI::App& app);
 Command addKernels(CLI::App& app);
 Command addExpand(CLI::App& app);
 Command addSweep(CLI::App& app);
+/// --rounds and --devices of expand and sweep.
+void addChanges(CLI::App& app, harness::Changes& changes);
 Command addReport(CLI::App& app);
 Command addHelp(CLI::App& app);
+Command addCompletion(CLI::App& app);
+Command addComplete(CLI::App& app);  ///< hidden: what the shells ask
+Command addMan(CLI::App& app);
 Command addVersion(CLI::App& app, const std::string& version);
 Command addSweepWorker(CLI::App& app);  ///< hidden: what `sweep` starts for each job
 

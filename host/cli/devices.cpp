@@ -3,6 +3,7 @@
 
 #include <cstdio>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "host/cli/commands.h"
 #include "host/cli/common.h"
@@ -15,6 +16,7 @@
 namespace tessera::cli {
 namespace {
 
+using Json = nlohmann::ordered_json;
 using Rows = std::vector<std::vector<std::string>>;
 
 /// One probe a route. A device whose probe cannot run at all is still listed.
@@ -40,25 +42,49 @@ std::string yesNo(bool value) { return value ? "yes" : "no"; }
 
 std::string limitText(std::uint32_t limit) { return limit == ~0u ? "any" : grouped(limit); }
 
-void addDeviceRow(Rows& rows, const std::string& name, KernelCache* kernels, std::string& notes) {
+/// Absent where nothing is known to limit it.
+Json limitJson(std::uint64_t limit, std::uint64_t none) { return limit == none ? Json() : Json(limit); }
+
+void addDeviceRow(Rows& rows, Json& json, const std::string& name, KernelCache* kernels, std::string& notes) {
   const auto device = openDevice(name, 0);
   const DeviceInfo& info = device->info();
   const bool cpu = info.api == "cpu";
   const std::string first = probeCell(*device, kernels, cpu ? Route::kCpp : Route::kSpirv, notes, name);
-  const std::string probe =
-      cpu ? first : fmt::format("spirv {}, glsl {}", first, probeCell(*device, kernels, Route::kGlsl, notes, name));
+  const std::string second = cpu ? "" : probeCell(*device, kernels, Route::kGlsl, notes, name);
+  const std::string probe = cpu ? first : fmt::format("spirv {}, glsl {}", first, second);
+  json.push_back({{"device", name},
+                  {"name", info.name},
+                  {"driver", info.driver},
+                  {"software", info.correctnessOnly},
+                  {"threads", cpu ? Json(info.threads) : Json()},
+                  {"int64", info.int64},
+                  {"float64", info.float64},
+                  {"atomic64", info.atomicMin64},
+                  {"buffer_bytes", limitJson(info.maxBufferBytes, ~0ull)},
+                  {"group_bytes", info.maxGroupBytes},
+                  {"loop", limitJson(info.maxLoopIterations, ~0u)},
+                  {"groups", limitJson(info.maxGroupsPerDimension, ~0u)},
+                  {"clock", info.timeClock},
+                  {"probe", cpu ? Json{{"cpp", first}} : Json{{"spirv", first}, {"glsl", second}}}});
   rows.push_back({name, info.name, info.driver, yesNo(info.int64), yesNo(info.atomicMin64),
                   byteSize(info.maxBufferBytes), byteSize(info.maxGroupBytes), limitText(info.maxLoopIterations),
                   limitText(info.maxGroupsPerDimension), info.timeClock, probe});
   if (info.correctnessOnly) notes += fmt::format("{}: a software driver; its times say nothing about a GPU\n", name);
 }
 
-ExitCode runDevices() {
+struct DevicesOptions {
+  bool json = false, quiet = false;
+};
+
+ExitCode runDevices(const DevicesOptions& options) {
+  Json json{{"devices", Json::array()}, {"unusable", Json::array()}, {"slangc", Json()}, {"kernels", Json()}};
   std::unique_ptr<KernelCache> kernels;
   std::string compilers;
   try {
     kernels = std::make_unique<KernelCache>();
     const ToolInfo& slangc = kernels->slangc();
+    json["slangc"] = {{"version", slangc.version}, {"path", slangc.path.string()}, {"origin", slangc.origin}};
+    json["kernels"] = kernels->folder().string();
     compilers = fmt::format("slangc   {} {} (from {})\nC++      {}\nkernels  {}\n", slangc.version,
                             slangc.path.string(), slangc.origin, kernels->cxx(), kernels->folder().string());
   } catch (const Error& error) {
@@ -73,15 +99,25 @@ ExitCode runDevices() {
     Progress progress("devices", names.size());
     for (std::size_t i = 0; i < names.size(); ++i) {
       progress.at(i, names[i]);
-      addDeviceRow(rows, names[i], kernels.get(), notes);
+      addDeviceRow(rows, json["devices"], names[i], kernels.get(), notes);
     }
   }
   const VulkanAdapters vulkan = listVulkanAdapters();
   for (const auto& adapter : vulkan.adapters)
-    if (!adapter.whyNot.empty())
+    if (!adapter.whyNot.empty()) {
+      json["unusable"].push_back({{"device", fmt::format("vulkan:{}", adapter.index)},
+                                  {"name", adapter.name},
+                                  {"driver", adapter.driver},
+                                  {"why", adapter.whyNot}});
       notes += fmt::format("vulkan:{} {} ({}): cannot be used: {}\n", adapter.index, adapter.name, adapter.driver,
                            adapter.whyNot);
+    }
   for (const auto& note : vulkan.notes) notes += fmt::format("vulkan: {}\n", note);
+  if (options.json) {
+    json["notes"] = vulkan.notes;
+    fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
+    return ExitCode::kDone;
+  }
   fmt::print("{}\n{}{}{}", table(rows), notes, notes.empty() ? "" : "\n", compilers);
   return ExitCode::kDone;
 }
@@ -89,14 +125,17 @@ ExitCode runDevices() {
 }  // namespace
 
 Command addDevices(CLI::App& app) {
+  auto options = std::make_shared<DevicesOptions>();
   auto* const command =
       app.add_subcommand("devices", "list the devices here, their limits and the verdict of the arithmetic probe");
+  command->add_flag("--json", options->json, "print JSON; null is no limit");
+  addQuiet(*command, options->quiet);
   command->footer(
       "buffer: largest storage buffer; loop: iterations that one invocation can run; groups: workgroups in a "
       "dimension. "
       "Parity of images is claimed where the probe passes, and where it finds denormals flushed to zero and nothing "
       "else, for scenes whose arithmetic meets none.");
-  return {command, runDevices};
+  return {command, [options] { return runDevices(*options); }};
 }
 
 }  // namespace tessera::cli

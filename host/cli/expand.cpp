@@ -23,7 +23,12 @@ using namespace tessera::harness;
 
 struct ExpandOptions {
   std::string sweep;
+<<<<<<< HEAD
   bool quick = false, json = false, noEstimate = false, allowKernels = false;
+=======
+  bool quick = false, json = false, noEstimate = false;
+  Changes changes;
+>>>>>>> c9e9a17 (Completion for bash, zsh and fish, a manual page, plan with attribute, kernel and threads, sweep and expand with rounds and devices, devices as JSON, mesh: lists; README's and help's lines work when pasted)
 };
 
 std::string expandJson(const Sweep& sweep, const std::vector<Cell>& cells, const Survey& survey,
@@ -136,7 +141,7 @@ std::string estimateText(const Estimate& estimate) {
 }
 
 ExitCode expand(const ExpandOptions& options) {
-  const Sweep sweep = readSweep(options.sweep, options.quick);
+  const Sweep sweep = readSweep(options.sweep, options.quick, options.changes);
   const std::vector<Cell> all = cells(sweep);
   KernelCache kernels;
   const Survey surveyed = survey(sweep, all, kernels);
@@ -172,6 +177,7 @@ Command addExpand(CLI::App& app) {
       app.add_subcommand("expand", "list the cells of SWEEP, what is refused among them, and how long they will take");
   command->add_option("SWEEP", options->sweep, "a sweep file (.toml): experiments/README.md has its keys")->required();
   command->add_flag("--quick", options->quick, "with the sizes, rounds and scenes of its [quick]");
+  addChanges(*command, options->changes);
   command->add_flag("--no-estimate", options->noEstimate, "render nothing: do not say how long it will take");
   command->add_flag("--allow-kernels", options->allowKernels,
                     "render with files of [kernels] that lie outside the sweep's folder, too: a kernel is native code");

@@ -1,10 +1,13 @@
-// tessera help and tessera version: what a hand types for --help and --version.
+// tessera help, version, man and completion: what says what there is.
 #include <fmt/format.h>
 
 #include <cstdio>
 #include <memory>
+#include <vector>
 
 #include "host/cli/commands.h"
+#include "host/cli/completion.h"
+#include "host/cli/man.h"
 #include "host/cli/mistake.h"
 
 namespace tessera::cli {
@@ -19,6 +22,44 @@ Command addHelp(CLI::App& app) {
             const auto formatter = app.get_formatter();
             fmt::print("{}", name->empty() ? formatter->make_help(&app, "tessera", CLI::AppFormatMode::Normal)
                                            : commandNamed(app, *name).help("tessera"));
+            return ExitCode::kDone;
+          }};
+}
+
+Command addCompletion(CLI::App& app) {
+  auto shell = std::make_shared<std::string>();
+  auto* const command = app.add_subcommand("completion", "print what makes a shell complete commands, options and values");
+  command->add_option("SHELL", *shell, "bash, zsh or fish")->required();
+  command->footer(
+      "Examples:\n"
+      "  tessera completion bash > ~/.local/share/bash-completion/completions/tessera\n"
+      "  tessera completion zsh > ~/.zfunc/_tessera\n"
+      "  tessera completion fish > ~/.config/fish/completions/tessera.fish\n"
+      "The folder has to be there; zsh has to have its folder in fpath. For this shell alone: source <(tessera completion "
+      "bash).");
+  return {command, [shell] {
+            fmt::print("{}", completionScript(*shell));
+            return ExitCode::kDone;
+          }};
+}
+
+Command addComplete(CLI::App& app) {
+  auto words = std::make_shared<std::vector<std::string>>();
+  auto* const command = app.add_subcommand("complete", "")->group("");
+  command->add_option("WORDS", *words, "");
+  return {command, [words, &app] {
+            if (words->empty()) words->emplace_back();
+            for (const Candidate& candidate : candidates(app, *words))
+              fmt::print("{}\t{}\n", candidate.word, candidate.meaning);
+            return ExitCode::kDone;
+          }};
+}
+
+Command addMan(CLI::App& app) {
+  auto* const command = app.add_subcommand("man", "print the manual page, for man to show");
+  command->footer("Example:\n  tessera man | man -l -");
+  return {command, [&app] {
+            fmt::print("{}", manualPage(app));
             return ExitCode::kDone;
           }};
 }

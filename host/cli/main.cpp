@@ -41,7 +41,7 @@ ExitCode runCommand(int argc, char** argv) {
   const std::array commands{cli::addRender(app),  cli::addParity(app),   cli::addCompare(app), cli::addPlan(app),
                             cli::addDevices(app), cli::addVariants(app), cli::addKernels(app),
                             cli::addExpand(app),  cli::addSweep(app),   cli::addSweepWorker(app),
-                            cli::addReport(app),  cli::addHelp(app),     cli::addVersion(app, version)};
+                            cli::addReport(app),  cli::addCompletion(app), cli::addComplete(app), cli::addMan(app), cli::addHelp(app),     cli::addVersion(app, version)};
   if (argc < 2) {
     fmt::print(stderr, "{}\n", cli::shortHelp(app));
     return ExitCode::kUsage;

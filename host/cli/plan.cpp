@@ -10,6 +10,7 @@
 #include "host/cli/commands.h"
 #include "host/cli/common.h"
 #include "host/cli/table.h"
+#include "host/stages.h"
 
 namespace tessera::cli {
 namespace {
@@ -18,24 +19,30 @@ struct PlanOptions : Options {
   bool json = false;
 };
 
-std::string planJson(const Plan& plan) {
+/// `files`: a user's, by stage; a pass that runs one says so.
+std::string planJson(const Plan& plan, const KernelFiles& files) {
   nlohmann::ordered_json json{{"plan", nlohmann::ordered_json::array()}, {"variant", plan.resolved.values()}};
   for (const auto& entry : plan.entries)
     json["plan"].push_back({{"pass", entry.pass}, {"kept", entry.kept}, {"why", entry.why}});
+  for (const auto& [stage, file] : files) json["kernels"][stage] = file.string();
   return json.dump(2) + '\n';
 }
 
-std::string planTable(const Plan& plan) {
+std::string planTable(const Plan& plan, const KernelFiles& files) {
   std::vector<std::vector<std::string>> rows{{"pass", "plan", "why"}};
   for (const auto& entry : plan.entries) rows.push_back({entry.pass, entry.kept ? "kept" : "left out", entry.why});
-  return table(rows) + "\nvariant: " + plan.resolved.text() + '\n';
+  std::string text = table(rows) + "\nvariant: " + plan.resolved.text() + '\n';
+  for (const auto& [stage, file] : files) text += fmt::format("kernel of {}: {}\n", stage, file.string());
+  return text;
 }
 
 ExitCode runPlan(const PlanOptions& options) {
   const Variant variant = variantOf(options);
+  const KernelFiles files = kernelFilesOf(options);
   const auto device = openDevice(options);
   const Plan plan = makePlan(sceneOf(options), variant, device->info());
-  fmt::print("{}", options.json ? planJson(plan) : planTable(plan));
+  kernelRequests(plan, files);  // refuses a file of a stage that the plan leaves out, or that the device cannot take
+  fmt::print("{}", options.json ? planJson(plan, files) : planTable(plan, files));
   return ExitCode::kDone;
 }
 
@@ -47,6 +54,9 @@ Command addPlan(CLI::App& app) {
   addInput(*command, *options);
   addDevice(*command, *options, false);
   addSettings(*command, *options);
+  addAttribute(*command, *options);
+  addKernelFiles(*command, *options);
+  addThreads(*command, *options);
   command->add_flag("--json", options->json, "print JSON");
   command->footer("Example:\n  tessera plan mesh:refined_elephant --set shade=smooth");
   return {command, [options] { return runPlan(*options); }};

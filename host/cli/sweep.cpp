@@ -4,8 +4,18 @@
 #include "experiments/harness/runner.h"
 #include "experiments/harness/worker.h"
 #include "host/cli/commands.h"
+#include "host/cli/common.h"
 
 namespace tessera::cli {
+
+void addChanges(CLI::App& app, harness::Changes& changes) {
+  addCount(app, "--rounds", changes.rounds, 1, 1000, "rounds, in place of the file's");
+  app.add_option("--devices", changes.devices,
+                 "cpu, vulkan, vulkan:N or vulkan:NAME, with commas between, in place of the file's")
+      ->type_name("DEVICE,...")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+}
 
 Command addSweep(CLI::App& app) {
   auto options = std::make_shared<harness::SweepOptions>();
@@ -19,6 +29,8 @@ Command addSweep(CLI::App& app) {
       ->type_name("DIR");
   command->add_flag("--resume", options->resume, "go on with what the folder holds; begins where it holds nothing");
   command->add_flag("--quick", options->quick, "the smaller sweep that the file's [quick] says");
+  addChanges(*command, options->changes);
+  addQuiet(*command, options->quiet);
   command->add_option("--job", options->jobs, "only this scene on this device; may be repeated")
       ->type_name("SCENE@DEVICE")
       ->allow_extra_args(false);
