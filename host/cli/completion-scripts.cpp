@@ -73,7 +73,9 @@ function __tessera_complete
         if string match -qr '^:(files|folders)' -- $line
             set -l before (string replace -r '^:\w+ ?' '' -- (string split \t -- $line)[1])
             set -l rest (string sub -s (math (string length -- "$before") + 1) -- "$word")
-            for name in (string match -q ':folders*' -- $line; and __fish_complete_directories "$rest"; or __fish_complete_path "$rest")
+            set -l names __fish_complete_path
+            string match -q ':folders*' -- $line; and set names __fish_complete_directories
+            for name in ($names "$rest")
                 echo $before$name
             end
         else

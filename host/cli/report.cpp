@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 
 struct ReportOptions {
   std::string folder, exported;
-  bool allDevices = false;
+  bool allDevices = false, quiet = false;
 };
 
 /// Rows come from the journal where there is one; a folder of merged rows has none.
@@ -72,6 +72,7 @@ ExitCode runReport(const ReportOptions& options) {
   for (auto& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   std::fflush(stdout);
+  if (options.quiet && std::freopen("/dev/null", "w", stdout) == nullptr) fail("/dev/null: could not be opened");
   // This process becomes Python, whose exit code and signals are then its own.
   execvp(arguments[0], arguments.data());
   fail(fmt::format("{}: {}; TESSERA_PYTHON should be a Python 3.11 that has what tools/report.txt lists", words[0],
@@ -88,6 +89,7 @@ Command addReport(CLI::App& app) {
   command->add_option("--export", options->exported, "the rows as a table, too")->type_name("FILE.parquet|FILE.duckdb");
   command->add_flag("--all-devices", options->allDevices,
                     "software drivers' times on the plots, too, marked in their names");
+  addQuiet(*command, options->quiet);
   command->footer("Example:\n  tessera report out/tile --export tile.parquet");
   return {command, [options] { return runReport(*options); }};
 }

@@ -27,7 +27,8 @@ completes 'tessera render --set ti' tile= tile-test= '!commit='
 completes 'tessera render --set tile=' 8 16 32 64            # readline breaks words at =
 completes 'tessera render --set tile=8,commit=two' two-pass
 completes 'tessera render --set=cull=' none back front
-completes 'tessera render --device vul' vulkan 0             # and at the colon
+completes 'tessera render --device vul' vulkan vulkan:0
+completes 'tessera render --device vulkan:' 0                # and at the colon
 completes 'tessera render me' mesh:
 completes 'tessera render mesh:refined_' refined_elephant
 completes 'tessera render generate:ico' icosphere

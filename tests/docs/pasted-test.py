@@ -16,7 +16,7 @@ source, program = (pathlib.Path(argument).resolve() for argument in sys.argv[1:3
 def readme_lines():
     for line in (source / "README.md").read_text().splitlines():
         if line.startswith("    tessera "):
-            yield "README.md", line.strip()
+            yield "README.md", line.split("   #")[0].strip()
 
 
 def help_lines():
@@ -47,7 +47,9 @@ def runnable(line):
         return line.split("|")[0]
     if words[1] == "kernels" and "--prebuild" in words:
         return None
-    return re.sub(r"--repeat \d+", "--repeat 2", line)
+    if words[1] in ("render", "parity"):  # small, since what is looked at is the command line
+        line = re.sub(r"--size \S+", "--size 64x48", line) if "--size" in words else line + " --size 64"
+    return re.sub(r"level=\d", "level=2", re.sub(r"--repeat \d+", "--repeat 2", line))
 
 
 def main():
