@@ -94,8 +94,12 @@ std::vector<std::string> jobNames(const SweepOptions& options, const std::option
 
 /// The rounds and devices of a sweep that was begun. Older journals do not name the devices: they are the file's.
 Changes begunChanges(const Record& begun) {
-  const Json devices = begun.head.value("devices", Json::array());
-  return {begun.head.at("rounds").get<unsigned>(), devices.get<std::vector<std::string>>()};
+  Changes changes{begun.head.at("rounds").get<unsigned>(), {}};
+  for (const Json& device : begun.head.value("devices", Json::array())) {
+    if (!device.is_string()) failUsage("journal.jsonl:1: devices: names in quotes would be right");
+    changes.devices.push_back(device);
+  }
+  return changes;
 }
 
 /// What was begun goes on if it is the same file, read as it was then.
