@@ -23,12 +23,8 @@ using namespace tessera::harness;
 
 struct ExpandOptions {
   std::string sweep;
-<<<<<<< HEAD
   bool quick = false, json = false, noEstimate = false, allowKernels = false;
-=======
-  bool quick = false, json = false, noEstimate = false;
   Changes changes;
->>>>>>> c9e9a17 (Completion for bash, zsh and fish, a manual page, plan with attribute, kernel and threads, sweep and expand with rounds and devices, devices as JSON, mesh: lists; README's and help's lines work when pasted)
 };
 
 std::string expandJson(const Sweep& sweep, const std::vector<Cell>& cells, const Survey& survey,
