@@ -77,8 +77,8 @@ TEST_CASE("Rounds and devices of a sweep are the command line's and a resume goe
   CHECK(desk.tessera("sweep tile.toml --out new --rounds 2 --devices cpu -q").out.empty());
   const std::string rows = desk.read("new/rows.jsonl");
   const json row = json::parse(rows.substr(0, rows.find('\n')));
-  CHECK(row["times"]["samples"].size() == 2);
-  CHECK(row["sweep"]["device"] == "cpu");
+  CHECK(row.at("time_ns").at("samples").size() == 2);
+  CHECK(row.at("sweep").at("device") == "cpu");
   for (const auto& [arguments, code, said] : std::initializer_list<std::tuple<const char*, int, const char*>>{
            {"--resume", 0, "nothing was left to do"},
            {"--resume --rounds 2 --devices cpu", 0, "nothing was left to do"},
