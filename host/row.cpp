@@ -88,6 +88,7 @@ Json differenceJson(const Difference& difference) {
 
 Json errorJson(const Run& run) {
   Json json = run.difference ? differenceJson(*run.difference) : Json::object();
+  if (run.difference) json["winner_mismatch"] = countJson(run.wrongWinners);
   if (run.hitCountNotOne) json["hit_count_not_one"] = *run.hitCountNotOne;
   if (run.attributeError) {
     json["attribute_max"] = finiteJson(run.attributeError->max);

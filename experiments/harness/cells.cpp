@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "datasets/random.h"
 
@@ -89,6 +90,33 @@ std::vector<Cell> cells(const Sweep& sweep) {
         for (const unsigned threads : sweep.threads) addGroup(device, scene, size, threads);
       }
   return all;
+}
+
+void makeReference(std::vector<Cell>& cells, std::size_t number) {
+  const Cell chosen = cells.at(number);
+  for (Cell& cell : cells) {
+    if (cell.group != chosen.group) continue;
+    cell.reference = cell.number == number;
+    if (!cell.twin) continue;
+    cell.asked = chosen.asked;
+    cell.kernels = chosen.kernels;
+    cell.labels = chosen.labels;
+  }
+}
+
+bool chooseReferences(const Sweep& sweep, std::vector<Cell>& cells, const std::function<bool(std::size_t)>& refused) {
+  if (!sweep.reference.values().empty()) return false;
+  bool changed = false;
+  std::optional<std::size_t> done;  // the group whose reference stands
+  for (std::size_t number = 0; number < cells.size(); ++number) {
+    const Cell& cell = cells[number];
+    if (cell.twin || cell.group == done || refused(number)) continue;
+    done = cell.group;
+    if (cell.reference) continue;
+    makeReference(cells, number);
+    changed = true;
+  }
+  return changed;
 }
 
 std::vector<Job> jobs(const Sweep& sweep, const std::vector<Cell>& cells) {

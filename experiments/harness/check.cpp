@@ -161,6 +161,7 @@ double checkCell(Run& run, std::size_t number, const CheckTools& tools) {
   cli::Oracle& oracle = tools.oracles.of(scene, run.variant);
   oracle.holdColours(std::move(colours));
   run.difference = oracle.against(image);
+  run.wrongWinners = cli::wrongWinners(run.variant, *run.difference, oracle.expected(image), image);
   if (!run.truth.values().empty())
     run.truthDifference = errorOf(scene, joined(run.variant, run.truth), image, tools.oracles);
   writePicture(run, number, image, tools);

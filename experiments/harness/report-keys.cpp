@@ -27,6 +27,7 @@ const Names kErrorFields{"pixels",
                          "hit_count_not_one",
                          "attribute_mismatch",
                          "colour_mismatch",
+                         "winner_mismatch",
                          "attribute_max",
                          "attribute_rms",
                          "psnr"};

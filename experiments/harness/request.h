@@ -1,8 +1,8 @@
 // What the process of a sweep asks of its workers, and how it travels: a line of JSON a message.
 //
 //   to the worker    a WorkerJob, once; then  {"do": "check" or "time", "cell": N, "warm": whether frames go ahead}
-//   from the worker  {"event": "planned", "cell": N, "row": what is known of the cell before it has rendered}, each
-//   cell;
+//   from the worker  {"event": "planned", "cell": N, "row": what is known of the cell before it has rendered},
+//                    each cell; with "refused" and why where the planner does
 //                    {"event": "ready"};
 //                    {"event": "checked", "cell": N, "row": {...}, "frame_s": S}, status and all;
 //                    {"event": "sample", "total_ns": T, "stages": {...}, "error": {...}};

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
+#include <set>
 
 #include "datasets/text.h"
 #include "experiments/harness/cells.h"
@@ -22,6 +23,7 @@
 #include "host/files.h"
 #include "host/row.h"
 #include "host/suggest.h"
+#include "host/terminal.h"
 
 namespace tessera::harness {
 namespace {
@@ -139,7 +141,12 @@ class Runner {
         cells_(cells(sweep_)),
         jobs_(chosenJobs(jobs(sweep_, cells_), jobNames(options, begun))),
         begun_(std::move(begun)),
-        schedule_(sweep_, cells_, jobs_, begun_ ? *begun_ : emptyRecord()) {}
+        schedule_(sweep_, cells_, jobs_, begun_ ? *begun_ : emptyRecord()) {
+    if (!begun_) return;
+    for (const Json& cell : begun_->head.at("cells"))
+      if (const std::size_t number = cell.at("cell"); number < cells_.size() && flagAt(cell.at("sweep"), "reference"))
+        makeReference(cells_, number);
+  }
 
   bool isDone() const {
     return std::ranges::all_of(jobs_, [&](const Job& job) { return schedule_.isDone(job); });
@@ -203,7 +210,10 @@ class Runner {
     worker_->send(requestOf(job));
     while (auto message = receive()) {
       if (message->at("event") == "ready") return true;
-      if (message->at("event") == "planned") planned(message->at("cell"), message->at("row"));
+      if (message->at("event") == "planned") {
+        planned(message->at("cell"), message->at("row"));
+        if (message->contains("refused")) refused_.insert(message->at("cell").get<std::size_t>());
+      }
     }
     return false;
   }
@@ -254,7 +264,12 @@ class Runner {
   /// Inputs are read, devices opened and kernels compiled before anything is written: what is wrong with them is said
   /// at once.
   void prepare(const Job& job) {
-    startWorker(job);
+    const bool ready = startWorker(job);
+    // A worker knows the twin as it was told: of another one it is told anew.
+    if (ready && !begun_ && chooseReferences(sweep_, cells_, [&](std::size_t number) {
+          return refused_.contains(number) || !planned_.contains(number);
+        }))
+      stopWorker();
     for (const std::size_t number : job.cells)
       if (planned_.contains(number)) provenance_[job.name] = planned_[number].at("provenance");
     if (std::ranges::count_if(jobs_, [&](const Job& j) { return !schedule_.isDone(j); }) > 1) stopWorker();
@@ -386,7 +401,7 @@ class Runner {
 
   const fs::path folder_;
   const Sweep sweep_;
-  const std::vector<Cell> cells_;
+  std::vector<Cell> cells_;
   const std::vector<Job> jobs_;
   const std::optional<Record> begun_;
   Schedule schedule_;
@@ -394,6 +409,7 @@ class Runner {
   std::unique_ptr<WorkerProcess> worker_;
   std::unique_ptr<Journal> journal_;
   std::map<std::size_t, Json> planned_;  ///< rows of cells as they were before they had rendered
+  std::set<std::size_t> refused_;        ///< by the planner
   Json provenance_ = Json::object();     ///< of the jobs
   std::string ending_;
   unsigned session_ = 0;
@@ -423,9 +439,9 @@ void runSweep(const SweepOptions& options) {
   deriveRows(options.folder);
   if (options.quiet) return;
   if (resumed && wasDone)
-    fmt::print("{}: the sweep had ended already: nothing was left to do\n", options.folder.string());
+    say(stdout, "{}: the sweep had ended already: nothing was left to do\n", options.folder.string());
   else
-    fmt::print("{}", summaryOf(readJournal(options.folder), options.folder));
+    say(stdout, "{}", summaryOf(readJournal(options.folder), options.folder));
 }
 
 }  // namespace tessera::harness

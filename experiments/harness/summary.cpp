@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 
 #include "experiments/harness/fields.h"
 #include "experiments/harness/rows.h"
@@ -38,17 +39,20 @@ std::map<std::pair<unsigned, unsigned>, double> turnsOf(const CellRecord& cell) 
 }
 
 /// As the report has it: median over the rounds of time over the reference's in the same session and round.
-double ratio(const CellRecord& cell, const CellRecord& reference) {
+std::optional<double> ratio(const CellRecord& cell, const CellRecord& reference) {
   const auto base = turnsOf(reference);
   std::vector<double> ratios;
   for (const auto& [turn, time] : turnsOf(cell))
     if (const auto found = base.find(turn); found != base.end() && found->second > 0)
       ratios.push_back(time / found->second);
+  if (ratios.empty()) return {};
   return medianOf(std::move(ratios));
 }
 
+/// From the picture that is held to be true where there is one, as the page counts it.
 std::string errorText(const Json& row) {
-  const Json error = row.value("error", Json::object());
+  const Json error = row.value(row.contains("truth") ? "truth_error" : "error", Json());
+  if (!error.is_object()) return "-";
   std::string text;
   for (const auto& [field, name] : {std::pair{"coverage_mismatch", "coverage"},
                                     {"id_mismatch", "ids"},
@@ -71,7 +75,8 @@ std::string groupTable(const std::vector<Line>& lines, const std::vector<std::st
   const auto reference =
       std::ranges::find_if(lines, [](const Line& l) { return l.head->at("sweep").at("reference").get<bool>(); });
   std::vector<std::vector<std::string>> rows{swept};
-  for (const char* const heading : {"ms", "ratio", "error"}) rows[0].push_back(heading);
+  const bool truth = std::ranges::any_of(lines, [](const Line& l) { return l.cell->row.contains("truth"); });
+  for (const char* const heading : {"ms", "ratio", truth ? "error from truth" : "error"}) rows[0].push_back(heading);
   for (const Line& line : lines) {
     const Json& sweep = line.head->at("sweep");
     std::vector<std::string> row;
@@ -81,7 +86,8 @@ std::string groupTable(const std::vector<Line>& lines, const std::vector<std::st
     } else {
       const bool twin = flagAt(sweep, "twin");
       row.push_back(cli::milliseconds(medianTime(*line.cell)));
-      row.push_back(reference == lines.end() ? "-" : fmt::format("{:.3f}", ratio(*line.cell, *reference->cell)));
+      const auto over = reference == lines.end() ? std::nullopt : ratio(*line.cell, *reference->cell);
+      row.push_back(over ? fmt::format("{:.3f}", *over) : "-");
       row.push_back(twin ? "A/A" : errorText(line.cell->row));
     }
     rows.push_back(std::move(row));

@@ -20,6 +20,7 @@
 #include "experiments/harness/watchdog.h"
 #include "host/cli/common.h"
 #include "host/cli/measure.h"
+#include "host/stages.h"
 
 namespace tessera::harness {
 namespace {
@@ -68,16 +69,21 @@ class Worker {
       Device& device = deviceOf(cell);
       KernelCache& kernels = kernelsOf(cell);
       Run run = beginOf(cell, device, kernels);
+      std::string refused;
       try {
         for (const bool work : {false, true}) {
           Plan plan = makePlan(scene, work ? joined(cell.asked, {{"counters", "work"}}) : cell.asked, run.device);
           if (!work) run.variant = plan.resolved;
           if (!work) run.plan = plan.entries;
+          kernelRequests(plan, cell.kernels);
           plans[cell.kernels].push_back(std::move(plan));
         }
-      } catch (const Error&) {  // the check says so
+      } catch (const Error& error) {  // the check says so
+        refused = error.what();
       }
-      send(out_, {{"event", "planned"}, {"cell", cell.number}, {"row", rowJson(run)}});
+      Json message{{"event", "planned"}, {"cell", cell.number}, {"row", rowJson(run)}};
+      if (!refused.empty()) message["refused"] = refused;
+      send(out_, message);
     }
     for (const auto& [files, list] : plans) {
       try {

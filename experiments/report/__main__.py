@@ -1,4 +1,4 @@
-"""Makes a sweep's page and figures: python experiments/report DIR --schema N [--export FILE] [--all-devices].
+"""Makes a sweep's page and figures: python experiments/report ROWS.jsonl --out DIR --schema N [--export FILE] [--all-devices].
 
 `tessera report` runs it."""
 
@@ -7,31 +7,54 @@ import os
 from pathlib import Path
 import shutil
 import sys
+import tempfile
+import traceback
 
 from refused import Refused
+import visible
 
 
-def writeBeside(path, content):
-  """Written beside its name and renamed, so that there is never half a file."""
-  new = path.with_name(path.name + ".tmp")
-  new.write_bytes(content)
-  os.replace(new, path)
+kPage = "index.html"
+kSchemaFile = "row.schema.json"
+
+
+def checkPlace(report):
+  """A report's folder is new, empty, or holds an earlier report, whose files may go."""
+  if report.exists() and not report.is_dir():
+    raise Refused(f"{report}: is a file; the name of a folder would do")
+  if not report.is_dir():
+    return
+  names = sorted(entry.name for entry in report.iterdir())
+  known = (kPage, kSchemaFile, "figures")
+  others = [name for name in names if name not in known and not name.endswith(".tmp")]
+  isReport = kPage in names and b"<code>tessera report</code>" in (report / kPage).read_bytes()[-2_000_000:]
+  if names and not isReport:
+    raise Refused(f"{report}: holds {(others or names)[0]} and no report; a new or an empty folder would do")
 
 
 def writeFigures(folder, plots, main):
-  """The names of the figures, of which `main` is copied to figure.*. Those of an earlier report go."""
+  """The names of the figures, of which `main` is written as figure.*, too."""
   import figures
 
-  shutil.rmtree(folder, ignore_errors=True)
   folder.mkdir()
   names = []
   for plot in plots.list:
     for name, kind, content in figures.files(plot):
-      writeBeside(folder / f"{name}.{kind}", content)
+      (folder / f"{name}.{kind}").write_bytes(content)
       if name == main:
-        writeBeside(folder / f"figure.{kind}", content)
+        (folder / f"figure.{kind}").write_bytes(content)
       names.append(name)
   return list(dict.fromkeys(names))
+
+
+def replace(new, report):
+  """Puts what is in `new` into `report`: all is written by now, so that an earlier report stays until then."""
+  report.mkdir(parents=True, exist_ok=True)
+  old = new / "old"
+  if (report / "figures").exists():
+    os.replace(report / "figures", old)
+  for name in ("figures", kSchemaFile, kPage):
+    os.replace(new / name, report / name)
 
 
 def checkExport(path):
@@ -45,12 +68,14 @@ def main():
   import rows  # here, as the modules that follow: run() says in a line which library is not there
 
   parser = argparse.ArgumentParser(prog="tessera report")
-  parser.add_argument("folder", type=Path)
+  parser.add_argument("rows", type=Path)
+  parser.add_argument("--out", type=Path, required=True)
   parser.add_argument("--schema", type=int, required=True)
   parser.add_argument("--export", type=Path)
   parser.add_argument("--all-devices", action="store_true")
   arguments = parser.parse_args()
-  sweep = rows.readSweep(arguments.folder, arguments.schema, arguments.all_devices)
+  checkPlace(arguments.out)
+  sweep = rows.readSweep(arguments.rows.parent, arguments.schema, arguments.all_devices, arguments.rows.name)
 
   if arguments.export:
     checkExport(arguments.export)
@@ -58,26 +83,36 @@ def main():
   # These take a second, and what is wrong with a folder should be said at once.
   import export
   import page
+  import schema
   import plots as plots_
 
   plots = plots_.Plots(sweep, arguments.all_devices)
   figure = plots.figure()
   if figure is None:
     reasons = [line for line in plots.skipped if line.startswith(f"{sweep.plot.get('figure')}:")]
-    complain(f"{arguments.folder}: no figures/figure.svg: {' '.join(reasons) or 'there is nothing to plot'}", 0)
-  report = arguments.folder / "report"
-  report.mkdir(exist_ok=True)
-  names = writeFigures(report / "figures", plots, figure)
-  content = page.Page(sweep, plots, names).html().encode()
-  writeBeside(report / "index.html", content)
-  print(f"wrote {report / 'index.html'} ({len(content) / 1e6:.1f} MB) and {len(names)} figures in {report / 'figures'}")
+    complain(f"{sweep.folder}: no figures/figure.svg: {' '.join(reasons) or 'there is nothing to plot'}", 0)
+  report = arguments.out
+  parent = next(folder for folder in (report.absolute(), *report.absolute().parents) if folder.is_dir())
+  with tempfile.TemporaryDirectory(prefix="report.", suffix=".tmp", dir=parent) as folder:
+    new = Path(folder)
+    names = writeFigures(new / "figures", plots, figure)
+    content = page.Page(sweep, plots, names, report).html().encode()
+    (new / kPage).write_bytes(content)
+    shutil.copyfile(schema.kFile, new / kSchemaFile)
+    replace(new, report)
+  say(f"wrote {report / kPage} ({len(content) / 1e6:.1f} MB) and {len(names)} figures in {report / 'figures'}")
   if arguments.export:
     export.write(sweep, arguments.export)
-    print(f"wrote {arguments.export}")
+    say(f"wrote {arguments.export}")
+
+
+def say(line):
+  print(visible.visible(line))
 
 
 def complain(line, code):
-  print("tessera:", " ".join(str(line).split("\n")), file=sys.stderr)
+  sys.stdout.flush()
+  print("tessera:", visible.visible(" ".join(str(line).split("\n"))), file=sys.stderr)
   return code
 
 
@@ -95,6 +130,9 @@ def run():
     return complain(f"{error.filename}: {error.strerror}", 1)
   except KeyboardInterrupt:
     return 130
+  except Exception as error:  # a fault of ours: one line all the same, with the place
+    place = traceback.extract_tb(error.__traceback__)[-1]
+    return complain(f"report: {type(error).__name__}: {error} ({Path(place.filename).name}:{place.lineno}); nothing was written", 1)
   return 0
 
 

@@ -6,8 +6,11 @@ import os
 
 os.environ["SOURCE_DATE_EPOCH"] = "0"  # or the files would hold the time at which they were made
 
+import warnings
+
 import matplotlib
 
+warnings.filterwarnings("ignore", message="Glyph")  # a name in letters that the font has not: the page has them
 matplotlib.use("Agg")
 from matplotlib import colors, pyplot
 from matplotlib.lines import Line2D
@@ -47,6 +50,7 @@ kStyle = {
   "lines.linewidth": 1.1,
   "lines.markersize": 3.6,
   "legend.frameon": False,
+  "text.parse_math": False,  # names are no formulas
   "svg.fonttype": "path",
   "svg.hashsalt": "tessera",
   "pdf.fonttype": 42,

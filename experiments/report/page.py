@@ -2,7 +2,9 @@
 
 from html import escape
 import json
+import os
 from pathlib import Path
+from urllib.parse import quote
 
 import altair
 import vl_convert
@@ -20,9 +22,10 @@ kPolicy = "default-src 'none'; script-src 'unsafe-inline' 'unsafe-eval'; style-s
 
 
 class Page:
-  def __init__(self, sweep, plots, figures):
-    """`figures`: the names of those that were written beside the page."""
+  def __init__(self, sweep, plots, figures, folder=None):
+    """`figures`: the names of those that were written beside the page, into `folder`."""
     self.sweep, self.plots, self.figures = sweep, plots, figures
+    self.folder = folder or sweep.folder / "report"
     self.places = plots.places(sweep.cells)
     self.tables = Tables(sweep, plots)
     self.specs = []
@@ -79,42 +82,63 @@ class Page:
   def hidden(self, group):
     return all(cell.values["device"] in self.plots.hiddenDevices for cell in group.cells)
 
+  def name(self, cell):
+    return words.cellName(cell, self.sweep.swept)
+
+  def ties(self, cells):
+    """"; equal to it are b and c": those that no ratio tells from the first."""
+    names = [self.name(cell) for cell in cells[1:]]
+    return f"; equal to it {'is' if len(names) == 1 else 'are'} {words.listing(names)}" if names else ""
+
+  def errorWords(self):
+    return f" {self.plots.truthWords()}" if self.sweep.truth else ""
+
   def fastestWords(self, groups):
     """The winner in a sentence: which values are fastest, or equal to the fastest, where, and by how much."""
     wins = {}
     for group in groups:
       for cell in group.fastest(group.candidates):
-        wins.setdefault(words.cellName(cell, self.sweep.swept), []).append((cell, group))
+        wins.setdefault(self.name(cell), []).append((cell, group))
     name, won = max(wins.items(), key=lambda item: len(item[1]))
-    speeds = sorted(1 / cell.ratio.median for cell, _ in won if cell.ratio and not cell.ratio.equal)
-    speed = (
-      f", {words.span(speeds)} times as fast as the reference"
-      if speeds
-      else ", and is the reference"
-      if won[0][0].reference
-      else ", equal to the reference"
-    )
-    speed += f" in {len(speeds)} of them and equal to it in the rest" if 0 < len(speeds) < len(won) else ""
-    wrong = ", though not without errors" if any(cell.mismatches() for cell, _ in won) else ""
+    tied = [other for other, others in wins.items() if other != name and len(others) == len(won)]
+    compared = [cell for cell, _ in won if cell.ratio]
+    speeds = sorted(1 / cell.ratio.median for cell in compared if not cell.ratio.equal)
+    if speeds:
+      speed = f", {words.span(speeds)} times as fast as the reference"
+    elif won[0][0].reference:
+      speed = ", and is the reference"
+    else:
+      speed = ", equal to the reference" if compared else "; there is no time of the reference to compare with"
+    speed += f" in {len(speeds)} of them and equal to it in the rest" if 0 < len(speeds) < len(compared) else ""
+    wrong = f", though not without errors{self.errorWords()}" if any(cell.wrong for cell, _ in won) else ""
     if len(groups) == 1:
       winners = groups[0].fastest(groups[0].candidates)
-      names, first = [words.cellName(cell, self.sweep.swept) for cell in winners], winners[0]
-      exact = groups[0].fastest([cell for cell in groups[0].candidates if not cell.mismatches()]) if wrong else []
+      wrong = f", though not without errors{self.errorWords()}" if winners[0].wrong else ""
+      exact = groups[0].fastest([cell for cell in groups[0].candidates if cell.exact]) if wrong else []
+      first = winners[0]
+      compared = first.ratio and not first.reference
+      speed = (
+        ", and is the reference" if first.reference
+        else "; there is no time of the reference to compare with" if not compared
+        else ", equal to the reference" if first.ratio.equal
+        else f", {words.significant(1 / first.ratio.median)} times as fast as the reference"
+      )
       return (
-        f"Fastest is {names[0]}: {words.significant(first.ms)} ms{speed}{wrong}"
-        + (f"; equal to it {'is' if len(names) == 2 else 'are'} {words.listing(names[1:])}." if names[1:] else ".")
+        f"Fastest is {self.name(first)}: {words.significant(first.ms)} ms{speed}{wrong}{self.ties(winners)}."
         + (
-          f" Without an error it is {words.cellName(exact[0], self.sweep.swept)}: {words.significant(exact[0].ms)} ms."
+          f" Without an error it is {self.name(exact[0])}: {words.significant(exact[0].ms)} ms{self.ties(exact)}."
           if exact
           else ""
         )
       )
     return (
-      f"{name} is fastest, or equal to the fastest, in {len(won)} of {words.count(len(groups), 'group')}{speed}{wrong}."
+      f"{name} is fastest, or equal to the fastest, in {len(won)} of {words.count(len(groups), 'group')}{speed}{wrong}"
+      + (f"; so {'is' if len(tied) == 1 else 'are'} {words.listing(tied)} in as many" if tied else "")
+      + "."
     )
 
   def fastestTable(self, groups):
-    anyError = any(cell.mismatches() for group in groups for cell in group.candidates)
+    anyError = any(not cell.exact for group in groups for cell in group.candidates)
     places = self.plots.places([cell for group in groups for cell in group.cells])
     heads = [(place, "short") for place in places]
     heads += [
@@ -126,13 +150,13 @@ class Page:
       ("A/A floor", "number"),
     ]
     if anyError:
-      heads += [("fastest without an error", "name")]
+      heads += [("fastest without an error" + (" from truth" if self.sweep.truth else ""), "name"), ("equal to that", "name")]
     rows = []
     for group in groups:
       first, *others = group.fastest(group.candidates)
       _, low, high = first.spread
-      name = escape(words.cellName(first, self.sweep.swept))
-      if first.mismatches():
+      name = escape(self.name(first))
+      if first.wrong:
         name += ' <span class="bad">(with errors)</span>'
       row = [text(group.values.get(place)) for place in places]
       row += [
@@ -140,22 +164,19 @@ class Page:
         quantity(first.ms),
         (f"{words.significant(low)} to {words.significant(high)}", None),
         text(self.speed(first)),
-        text("; ".join(words.cellName(cell, self.sweep.swept) for cell in others)),
+        text("; ".join(self.name(cell) for cell in others)),
         (words.percent(group.floor), group.floor) if group.floor else text(""),
       ]
       if anyError:
-        exact = group.fastest([cell for cell in group.candidates if not cell.mismatches()])
-        row.append(
+        exact = group.fastest([cell for cell in group.candidates if cell.exact])
+        row += [
           text(
             ""
             if not exact
-            else (
-              "the same"
-              if exact[0] is first
-              else f"{words.cellName(exact[0], self.sweep.swept)}, {words.significant(exact[0].ms)} ms"
-            )
-          )
-        )
+            else "the same" if exact[0] is first else f"{self.name(exact[0])}, {words.significant(exact[0].ms)} ms"
+          ),
+          text("; ".join(self.name(cell) for cell in exact[1:])),
+        ]
       rows.append(row)
     return table(
       "fastest",
@@ -248,7 +269,8 @@ class Page:
     return name, title, "".join(self.figure(plot) for plot in found)
 
   def pictures(self):
-    made, notes = pictures.embed(self.sweep)
+    sweep_ = self.sweep
+    made, notes = pictures.embed(sweep_)
     self.notes += notes
     if not made:
       return None
@@ -270,7 +292,7 @@ class Page:
         f"{words.pixels(value, name)}{origin}"
         for source, origin in (("error", ""), ("truth_error", f" {self.plots.truthWords()}"))
         for name, value in first.row.get(source, {}).items()
-        if name.endswith("_mismatch") and value and (source == "error" or value != first.row.get("error", {}).get(name))
+        if name.endswith("_mismatch") and name != "winner_mismatch" and value and (source == "error" or value != first.row.get("error", {}).get(name))
       ]
       names = ", ".join(
         [*(first.values.get(place, "") for place in self.places), words.cellName(first, self.sweep.swept)]
@@ -281,7 +303,7 @@ class Page:
         if picture.cells[1:]
         else ""
       )
-      name = escape(first.row["picture"])
+      name = quote(os.path.relpath(sweep_.folder / first.row["picture"], self.folder))
       (width, height), (small, _) = picture.size, picture.shown
       size = f"{width} \u00d7 {height} pixels" + (
         "" if small == width else f", each pixel here the most different of {picture.factor} \u00d7 {picture.factor}"
@@ -290,7 +312,7 @@ class Page:
         f'<figure><img decoding="async" src="{picture.uri}" width="{picture.shown[0]}"'
         f' height="{picture.shown[1]}" alt="Where the image of cell {first.number} differs:'
         f' {escape("; ".join(counts))}"><figcaption><b>{escape(names)}</b> (cell {first.number}).'
-        f' {escape("; ".join(counts))}. {size}; <a href="../{name}">as it is</a>.{others}</figcaption></figure>'
+        f' {escape("; ".join(counts))}. {size}; <a href="{name}">as it is</a>.{others}</figcaption></figure>'
       )
     return (
       "pictures",

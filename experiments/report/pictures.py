@@ -2,32 +2,88 @@
 
 import base64
 from dataclasses import dataclass
+import hashlib
 import io
+from pathlib import Path
 
 import numpy
 from PIL import Image
+import png
+
+from refused import Refused
 
 # Of the pictures on the page, at most; the largest that fits the budget is taken. The page shows none smaller than it
 # is, or a single wrong pixel could be lost on the way to the screen.
-kEdges = (256, 192, 128, 64)
+kEdge = 256
+kHalvings = 2
 kBudget = 3_000_000  # bytes of all pictures, as they stand in the page
+kLargest = 32768  # pixels along an edge of a raster
+kWhole = 1 << 24  # pixels that are read at once; Pillow would take 4 GB for the largest raster
 
 
-def pool(pixels, edge):
-  """The picture with both sides at most `edge`, and the whole factor by which it became smaller.
+def fold(rows, factor):
+  """`factor` rows of pixels or fewer as one, a pixel for each `factor` columns.
 
   Of each block the most coloured pixel stays: what agrees is grey, and vermilion (coverage) outdoes blue (id), yellow
   (depth) and purple (the rest) by how far its channels are apart."""
+  height, width, _ = rows.shape
+  columns = -(-width // factor)
+  padded = numpy.pad(rows, ((0, 0), (0, columns * factor - width), (0, 0)), mode="edge")
+  blocks = padded.reshape(height, columns, factor, 3).swapaxes(0, 1).reshape(columns, height * factor, 3)
+  telling = (blocks.max(axis=2).astype(int) - blocks.min(axis=2)).argmax(axis=1)
+  return blocks[numpy.arange(columns), telling]
+
+
+def pool(pixels, edge):
+  """The picture with both sides at most `edge`, and the whole factor by which it became smaller."""
   height, width, _ = pixels.shape
   factor = -(-max(height, width) // edge)
   if factor == 1:
     return pixels, 1
-  rows, columns = -(-height // factor), -(-width // factor)
-  padded = numpy.pad(pixels, ((0, rows * factor - height), (0, columns * factor - width), (0, 0)), mode="edge")
-  blocks = padded.reshape(rows, factor, columns, factor, 3).swapaxes(1, 2).reshape(rows, columns, factor * factor, 3)
-  colour = blocks.max(axis=3).astype(int) - blocks.min(axis=3)
-  telling = colour.argmax(axis=2)
-  return numpy.take_along_axis(blocks, telling[:, :, None, None], axis=2)[:, :, 0], factor
+  return numpy.stack([fold(pixels[first : first + factor], factor) for first in range(0, height, factor)]), factor
+
+
+def poolRows(rows, width, height, edge):
+  """The same of rows as they come, so that no more than a block's are held."""
+  factor = -(-max(height, width) // edge)
+  small, block = [], []
+  for row in rows:
+    block.append(numpy.frombuffer(row, numpy.uint8).reshape(width, 3))
+    if len(block) == factor:
+      small.append(fold(numpy.stack(block), factor))
+      block = []
+  if block:
+    small.append(fold(numpy.stack(block), factor))
+  return numpy.stack(small), factor
+
+
+def placeOf(folder, name, where):
+  """The picture's file. Nothing outside the folder is read, whatever a row says."""
+  path, root = folder / name, folder.resolve()
+  inside = not Path(name).is_absolute() and ".." not in Path(name).parts and path.resolve().is_relative_to(root)
+  if not inside:
+    raise Refused(f"{where}: picture: {name}: lies outside the folder; a path in the folder, such as pictures/3.png, would be right")
+  return path
+
+
+def read(path):
+  """(pixels with both sides at most kEdge, factor, size) of a PNG. Throws OSError for what is none."""
+  if not path.is_file():
+    raise OSError("not a file")
+  # The limit is ours: Pillow's own is for pictures from strangers that are read whole.
+  Image.MAX_IMAGE_PIXELS = None
+  with Image.open(path, formats=["PNG"]) as image:
+    width, height = size = image.size
+    if max(size) > kLargest:
+      raise OSError(f"larger than {kLargest} pixels")
+    if width * height <= kWhole:
+      return *pool(numpy.asarray(image.convert("RGB")), kEdge), size
+  try:
+    with path.open("rb") as file:
+      _, _, rows, about = png.Reader(file=file).asRGB8()
+      return *poolRows(rows, width, height, kEdge), size
+  except (png.Error, ValueError) as error:
+    raise OSError(str(error)) from None
 
 
 def encode(pixels):
@@ -54,18 +110,21 @@ def embed(sweep):
     name = cell.row.get("picture")
     if not name:
       continue
+    path = placeOf(sweep.folder, name, f"{sweep.path}:{cell.line}")
     try:
-      with Image.open(sweep.folder / name) as image:
-        pixels = numpy.asarray(image.convert("RGB"))
-    except OSError:
+      with path.open("rb") as file:
+        key = cell.values["scene"], hashlib.file_digest(file, "sha256").digest() if path.is_file() else None
+      if key not in found:
+        found[key] = (*read(path), [])
+      found[key][3].append(cell)
+    except (OSError, SyntaxError, ValueError):  # Pillow has all three for damaged files
       notes.append(f"{name}: the picture of cell {cell.number} is not in the folder, or not one.")
-      continue
-    found.setdefault((cell.values["scene"], pixels.shape, pixels.tobytes()), (pixels, []))[1].append(cell)
-  for edge in kEdges:
+  made = []
+  for halvings in range(kHalvings + 1):
     made = []
-    for pixels, cells in found.values():
-      small, factor = pool(pixels, edge)
-      made.append(Picture(cells, encode(small), pixels.shape[1::-1], small.shape[1::-1], factor))
+    for pixels, factor, size, cells in found.values():
+      small, more = pool(pixels, max(kEdge >> halvings, 1)) if max(pixels.shape[:2]) > kEdge >> halvings else (pixels, 1)
+      made.append(Picture(cells, encode(small), size, small.shape[1::-1], factor * more))
     if sum(len(picture.uri) for picture in made) <= kBudget:
       return made, notes
   kept = 0

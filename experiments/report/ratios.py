@@ -22,7 +22,9 @@ def paired(a: Samples, b: Samples) -> dict[int, list[float]]:
   both, so that it cancels; a round that was broken off and taken up in another session is another round."""
   ratios: dict[int, list[float]] = {}
   for turn in sorted(a.keys() & b.keys()):
-    ratios.setdefault(turn[0], []).append(float(numpy.median(a[turn]) / numpy.median(b[turn])))
+    over, under = float(numpy.median(a[turn])), float(numpy.median(b[turn]))
+    if over > 0 and under > 0:  # a clock that stood still measured nothing
+      ratios.setdefault(turn[0], []).append(over / under)
   return ratios
 
 

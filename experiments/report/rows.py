@@ -3,14 +3,16 @@
 from collections import defaultdict
 from dataclasses import dataclass, field
 import hashlib
-import json
 import math
 from pathlib import Path
 import tomllib
 
+import jsonschema
+
 import ratios
 from refused import Refused
-import versions
+import schema
+import visible
 
 # What a cell can be told apart by besides the axes; "x" is the number of its scene.
 kPlaces = ("machine", "scene", "size", "device", "threads")
@@ -51,7 +53,8 @@ class Cell:
 
   @property
   def timed(self):
-    return self.status == "ok" and bool(self.row.get("time_ns", {}).get("samples"))
+    samples = self.row.get("time_ns", {}).get("samples")
+    return self.status == "ok" and bool(samples) and min(samples) > 0  # a clock that stood still measured nothing
 
   @property
   def ms(self):
@@ -73,11 +76,22 @@ class Cell:
     return float(value) if isinstance(value, (int, float)) else None
 
   def mismatches(self, source="error"):
-    return sum(
-      value
-      for name, value in self.row.get(source, {}).items()
-      if name.endswith("_mismatch") and isinstance(value, (int, float))
-    )
+    """0 where all that was compared is equal."""
+    return sum(value for name, value in self.row.get(source, {}).items() if name.endswith("_mismatch") and value)
+
+  @property
+  def truthSource(self):
+    """Where errors count from: [truth] where the sweep has it."""
+    return "truth_error" if self.row.get("truth") else "error"
+
+  @property
+  def exact(self):
+    """Whether it was found to be without an error."""
+    return self.truthSource in self.row and not self.mismatches(self.truthSource)
+
+  @property
+  def wrong(self):
+    return bool(self.mismatches(self.truthSource))
 
 
 @dataclass
@@ -139,6 +153,7 @@ class Sweep:
   plot: dict  # [plot] of sweep.toml
   truth: dict  # [truth], as the rows have it
   notes: list  # lines that the page has to say
+  path: Path | None = None  # of the rows
 
   def varies(self, name):
     return len(self.order(name)) > 1
@@ -164,53 +179,42 @@ def number(name, text):
     value = float(text)
   except ValueError:
     return None
-  return value if math.isfinite(value) else None
+  return value if value == 0 or 1e-30 <= abs(value) <= 1e30 else None  # neither infinite nor NaN
 
 
-def readLines(path, schema):
-  cells = []
-  with path.open(encoding="utf-8") as lines:
-    for line, text in enumerate(lines, 1):
-      where = f"{path}:{line}"
-      if not text.strip():
-        continue
-      try:
-        row = json.loads(text)
-      except ValueError as error:
-        raise Refused(
-          f"{where}: not a line of JSON ({error}); a line should be one row, as 'tessera sweep' writes it"
-        ) from None
-      if not isinstance(row, dict) or "schema_version" not in row:
-        raise Refused(f"{where}: not a row; a line should be one row, as 'tessera sweep' writes it")
-      if not versions.kOldest <= row["schema_version"] <= schema:
-        raise Refused(
-          f"{where}: a row of schema version {row['schema_version']}; this report reads versions {versions.kOldest} to"
-          f" {schema}: make it with the tessera that made the rows, or run the sweep again"
-        )
-      for key, kind in (("sweep", dict), ("status", str), ("provenance", dict), ("scene", dict)):
-        if not isinstance(row.get(key), kind):
-          raise Refused(
-            f"{where}: {key}: missing; a sweep's row has it (rows of 'tessera render --json' have no sweep)"
-          )
-      for key in ("title", "question", "sha256", "cell", "group", "scene", "device"):
-        if key not in row["sweep"]:
-          raise Refused(f"{where}: sweep.{key}: missing; a sweep's row has it")
-      cells.append(Cell(versions.raised(row), line))
+def readLines(path, newest):
+  cells = [Cell(row, line) for line, row in schema.read(path, newest)]
   if not cells:
     raise Refused(f"{path}: no rows; run the sweep first: tessera sweep SWEEP.toml --out {path.parent}")
   return cells
 
 
+kNames = {"type": "array", "items": {"type": "string"}}
+kPlot = {
+  "type": "object",
+  "properties": {
+    "curve": kNames,
+    "against": kNames,
+    "heat": {"type": "array", "items": {**kNames, "minItems": 2, "maxItems": 2}},
+    "x-label": {"type": "string"},
+    "error": {"type": "string"},
+    "figure": {"type": "string"},
+  },
+}
+
+
 def readPlot(folder, sweep):
   """[plot], whose axes have to be the rows' own."""
   path = folder / "sweep.toml"
-  if not path.exists():
+  if not path.exists() and not path.is_symlink():
     sweep.notes.append("There is no sweep.toml beside the rows, so the plots are the usual ones.")
     return {}
+  if not path.is_file():
+    raise Refused(f"{path}: not a file; the sweep that gave the rows would be right")
   text = path.read_bytes()
   try:
-    file = tomllib.loads(text.decode("utf-8"))
-  except ValueError as error:
+    file = visible.everywhere(tomllib.loads(text.decode("utf-8")))
+  except (ValueError, RecursionError) as error:
     raise Refused(f"{path}: not TOML: {error}") from None
   if file.get("title") != sweep.title:
     raise Refused(
@@ -222,6 +226,9 @@ def readPlot(folder, sweep):
       "sweep.toml has been changed since the sweep ran; its [plot] is used, its cells are those of the rows."
     )
   plot = file.get("plot", {})
+  for error in jsonschema.Draft202012Validator(kPlot).iter_errors(plot):
+    where = ".".join(["plot", *(str(part) for part in error.absolute_path if isinstance(part, str))])
+    raise Refused(f"{path}: {where}: {schema.wanted(error)} would be right")
   known = [*sweep.swept, *kPlaces]
   asked = [("curve", axis) for axis in plot.get("curve", [])]
   asked += [("against", axis) for axis in plot.get("against", []) if axis != "x"]
@@ -229,6 +236,9 @@ def readPlot(folder, sweep):
   for key, axis in asked:
     if axis not in known:
       raise Refused(f'{path}: plot.{key}: "{axis}" does not vary in these rows; one of {", ".join(known)} would do')
+  for across, down in plot.get("heat", []):
+    if across == down:
+      raise Refused(f'{path}: plot.heat: "{across}" against itself; two different axes would be right')
   return plot
 
 
@@ -282,12 +292,12 @@ def valuesOf(cell, allDevices):
   return values
 
 
-def readSweep(folder, schema, allDevices=False):
-  path = folder / "rows.jsonl"
+def readSweep(folder, newest, allDevices=False, rows="rows.jsonl"):
+  path = folder / rows
   try:
-    cells = readLines(path, schema)
-  except (OSError, UnicodeDecodeError) as error:
-    raise Refused(f"{path}: {getattr(error, 'strerror', None) or 'not UTF-8'}") from None
+    cells = readLines(path, newest)
+  except OSError as error:
+    raise Refused(f"{path}: {error.strerror}") from None
   first = cells[0]
   for cell in cells:
     if cell.row["sweep"]["sha256"] != first.row["sweep"]["sha256"]:
@@ -332,6 +342,7 @@ def readSweep(folder, schema, allDevices=False):
     {},
     truth,
     [],
+    path,
   )
   if about.get("quick"):
     sweep.notes.append("These rows are of a --quick sweep, with sizes, rounds and scenes as in [quick].")

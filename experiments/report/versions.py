@@ -22,6 +22,8 @@ def raised(row):
   """The row in the newest version."""
   if row["schema_version"] > kOldest or not ({"error", "truth_error"} & row.keys()):
     return row
+  if row.get("error", {}).get("id_mismatch") is not None and "id_mismatch" in held(row):
+    row["error"] = {**row["error"], "winner_mismatch": row["error"]["id_mismatch"]}
   absent = [name for name in kCounted if name not in held(row)]
   for part in ("error", "truth_error", "error_samples"):
     if part in row:

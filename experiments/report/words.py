@@ -10,6 +10,7 @@ kErrors = {
   "hit_count_mismatch": "pixels with another number of hits",
   "hit_count_not_one": "pixels not hit exactly once",
   "attribute_mismatch": "pixels with another value",
+  "winner_mismatch": "pixels won by another triangle",
   "colour_mismatch": "pixels with another colour",
   "attribute_max": "largest error of a value",
   "attribute_rms": "root mean square error of a value",

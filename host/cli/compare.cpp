@@ -9,6 +9,7 @@
 #include "host/cli/common.h"
 #include "host/cli/difference.h"
 #include "host/files.h"
+#include "host/terminal.h"
 
 namespace tessera::cli {
 namespace {
@@ -44,10 +45,10 @@ ExitCode runCompare(const CompareOptions& options) {
         .width = a.width, .height = a.height, .depth = {}, .ids = {}, .hits = {}, .colour = differencePicture(a, b)};
     output->write(picture);
   }
-  fmt::print("{}{}", missingText(options, a, b), describe(difference));
-  if (!options.output.empty()) fmt::print("wrote {}\n", options.output);
+  say(stdout, "{}{}", missingText(options, a, b), describe(difference));
+  if (!options.output.empty()) say(stdout, "wrote {}\n", options.output);
   if (difference.equal()) return ExitCode::kDone;
-  fmt::print("{}\n", firstPixel(difference, {options.a, a}, {options.b, b}));
+  say(stdout, "{}\n", firstPixel(difference, {options.a, a}, {options.b, b}));
   return ExitCode::kDifference;
 }
 

@@ -11,6 +11,7 @@
 #include "host/cli/progress.h"
 #include "host/cli/table.h"
 #include "host/kernel-cache.h"
+#include "host/terminal.h"
 #include "host/vulkan/vulkan-device.h"
 
 namespace tessera::cli {
@@ -115,10 +116,10 @@ ExitCode runDevices(const DevicesOptions& options) {
   for (const auto& note : vulkan.notes) notes += fmt::format("vulkan: {}\n", note);
   if (options.json) {
     json["notes"] = vulkan.notes;
-    fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
+    say(stdout, "{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
     return ExitCode::kDone;
   }
-  fmt::print("{}\n{}{}{}", table(rows), notes, notes.empty() ? "" : "\n", compilers);
+  say(stdout, "{}\n{}{}{}", table(rows), notes, notes.empty() ? "" : "\n", compilers);
   return ExitCode::kDone;
 }
 

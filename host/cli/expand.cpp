@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <map>
@@ -15,6 +16,7 @@
 #include "experiments/harness/sweep-file.h"
 #include "host/cli/commands.h"
 #include "host/cli/table.h"
+#include "host/terminal.h"
 
 namespace tessera::cli {
 namespace {
@@ -75,12 +77,26 @@ std::string jobsTable(const Sweep& sweep, const std::vector<Cell>& cells, const 
   return table(rows);
 }
 
+std::size_t referenceOf(const std::vector<Cell>& cells, std::size_t group) {
+  return std::ranges::find_if(cells, [=](const Cell& c) { return c.group == group && c.reference; })->number;
+}
+
+/// What a variant is to the groups that it stands for.
+std::string referenceWords(std::size_t references, std::size_t refused, std::size_t groups) {
+  if (references == 0) return "";
+  std::string text =
+      references == groups ? "  (reference" : fmt::format("  (reference of {} of {} groups", references, groups);
+  if (refused == references) return text + ", but refused: no ratios)";
+  if (refused != 0) text += fmt::format(", refused in {}: no ratios there", refused);
+  return text + ", each twice)";
+}
+
 /// A line a variant, and one more for each reason that some of its cells are refused for. Those of scenes, devices,
 /// sizes and threads are counted together.
 std::string variantsTable(const Sweep& sweep, const std::vector<Cell>& cells, const Survey& survey) {
   struct Variants {
     std::size_t cells = 0;
-    bool reference = false;
+    std::size_t references = 0, refusedReferences = 0;
     std::vector<std::pair<std::string, std::size_t>> reasons;
   };
   std::vector<std::pair<std::string, Variants>> variants;
@@ -91,8 +107,9 @@ std::string variantsTable(const Sweep& sweep, const std::vector<Cell>& cells, co
     if (isNew) variants.emplace_back(name, Variants{});
     Variants& variant = variants[place->second].second;
     ++variant.cells;
-    variant.reference |= cell.reference;
     const auto& refused = survey.cells[cell.number].refused;
+    variant.references += cell.reference;
+    variant.refusedReferences += cell.reference && refused;
     if (!refused) continue;
     auto reason = std::ranges::find(variant.reasons, *refused, &std::pair<std::string, std::size_t>::first);
     if (reason == variant.reasons.end()) reason = variant.reasons.insert(reason, {*refused, 0});
@@ -101,7 +118,8 @@ std::string variantsTable(const Sweep& sweep, const std::vector<Cell>& cells, co
   std::vector<std::vector<std::string>> rows{{"cells", "variant", "refused, and why"}};
   for (const auto& [name, variant] : variants) {
     const std::string text =
-        fmt::format("{}{}", name.empty() ? "as set" : name, variant.reference ? "  (reference, each twice)" : "");
+        (name.empty() ? "as set" : name) +
+        referenceWords(variant.references, variant.refusedReferences, cells.back().group + 1);
     rows.push_back({std::to_string(variant.cells), text, ""});
     bool first = true;
     for (const auto& [reason, count] : variant.reasons) {
@@ -138,15 +156,19 @@ std::string estimateText(const Estimate& estimate) {
 
 ExitCode expand(const ExpandOptions& options) {
   const Sweep sweep = readSweep(options.sweep, options.quick, options.changes);
-  const std::vector<Cell> all = cells(sweep);
+  std::vector<Cell> all = cells(sweep);
   KernelCache kernels;
-  const Survey surveyed = survey(sweep, all, kernels);
+  Survey surveyed = survey(sweep, all, kernels);
+  if (chooseReferences(sweep, all, [&](std::size_t number) { return surveyed.cells[number].refused.has_value(); }))
+    for (const Cell& cell : all)
+      if (cell.twin) surveyed.cells[cell.number] = surveyed.cells[referenceOf(all, cell.group)];
   if (!options.json) {
     std::size_t refused = 0;
     for (const SurveyedCell& cell : surveyed.cells) refused += cell.refused.has_value();
-    fmt::print("{}\n{}\n\n{}\n{}\n", sweep.title, sweep.question, jobsTable(sweep, all, surveyed),
+    say(stdout, "{}\n{}\n\n{}\n{}\n", sweep.title, sweep.question, jobsTable(sweep, all, surveyed),
                variantsTable(sweep, all, surveyed));
-    fmt::print(
+    say(
+        stdout,
         "{} cells, {} of them refused; {} rounds, each of {} + {} frames a cell; {} kernels, {} of them to be "
         "compiled\n",
         grouped(all.size()), grouped(refused), sweep.rounds, sweep.warmUp, sweep.repeats, grouped(surveyed.kernels),
@@ -156,12 +178,12 @@ ExitCode expand(const ExpandOptions& options) {
   std::optional<Estimate> time;
   const bool kernelsMayRun = options.allowKernels || sweep.foreignKernel.empty();
   if (!options.noEstimate && !kernelsMayRun)
-    fmt::print(stderr, "nothing was rendered to say how long it will take: {}\n", sweep.foreignKernel);
+    say(stderr, "nothing was rendered to say how long it will take: {}\n", sweep.foreignKernel);
   if (!options.noEstimate && kernelsMayRun) time = estimate(sweep, all, surveyed);
   if (options.json)
-    fmt::print("{}", expandJson(sweep, all, surveyed, time));
+    say(stdout, "{}", expandJson(sweep, all, surveyed, time));
   else if (time)
-    fmt::print("{}", estimateText(*time));
+    say(stdout, "{}", estimateText(*time));
   return ExitCode::kDone;
 }
 

@@ -18,6 +18,7 @@
 #include "host/kernel-cache.h"
 #include "host/plan.h"
 #include "host/stages.h"
+#include "host/terminal.h"
 
 namespace tessera::cli {
 namespace {
@@ -61,7 +62,7 @@ std::vector<std::string> writeManifest(const std::filesystem::path& folder, cons
     writeWhole(folder / name, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   writeWhole(folder / "manifest.json", manifest.text);
   if (!manifest.complaint.empty())
-    fmt::print(stderr, "manifest.json has no commands, since the frame could not be run here: {}\n", manifest.complaint);
+    say(stderr, "manifest.json has no commands, since the frame could not be run here: {}\n", manifest.complaint);
   return {"manifest", grouped(manifest.text.size()), (folder / "manifest.json").string()};
 }
 
@@ -95,9 +96,9 @@ ExitCode emit(const KernelsOptions& options) {
                        : std::vector<std::string>{emitted.stage, "-", emitted.complaint});
   }
   rows.push_back(writeManifest(folder, manifestOf(scene, variant, plan, target, stages)));
-  fmt::print("{}", table(rows));
+  say(stdout, "{}", table(rows));
   if (missing == 0) return ExitCode::kDone;
-  fmt::print(stderr, "{} of {} stages cannot be written for {}: the table says why\n", missing, stages.size(),
+  say(stderr, "{} of {} stages cannot be written for {}: the table says why\n", missing, stages.size(),
              target.name);
   return ExitCode::kUnsupported;
 }
@@ -117,7 +118,7 @@ ExitCode runKernels(const KernelsOptions& options) {
   KernelCache kernels;
   compileKernels(kernels, plans);
   const KernelCache::Statistics statistics = kernels.statistics();
-  fmt::print("{} kernels of the default variants are ready in {}, {} of them compiled now\n",
+  say(stdout, "{} kernels of the default variants are ready in {}, {} of them compiled now\n",
              statistics.hits + statistics.compiled, kernels.folder().string(), statistics.compiled);
   return ExitCode::kDone;
 }

@@ -11,6 +11,7 @@
 #include "host/cli/commands.h"
 #include "host/cli/help.h"
 #include "host/cli/mistake.h"
+#include "host/terminal.h"
 
 namespace {
 
@@ -18,7 +19,7 @@ using namespace tessera;
 
 ExitCode complain(ExitCode code, std::string line) {
   std::replace(line.begin(), line.end(), '\n', ' ');
-  fmt::print(stderr, "tessera: {}\n", line);
+  say(stderr, "tessera: {}\n", line);
   return code;
 }
 
@@ -43,7 +44,7 @@ ExitCode runCommand(int argc, char** argv) {
                             cli::addExpand(app),  cli::addSweep(app),   cli::addSweepWorker(app),
                             cli::addReport(app),  cli::addCompletion(app), cli::addComplete(app), cli::addMan(app), cli::addHelp(app),     cli::addVersion(app, version)};
   if (argc < 2) {
-    fmt::print(stderr, "{}\n", cli::shortHelp(app));
+    say(stderr, "{}\n", cli::shortHelp(app));
     return ExitCode::kUsage;
   }
   try {

@@ -13,6 +13,7 @@
 #include "host/error.h"
 #include "host/oracle-image.h"
 #include "host/stages.h"
+#include "host/terminal.h"
 #include "host/user-kernel.h"
 
 namespace tessera::cli {
@@ -38,7 +39,7 @@ void compileKernels(KernelCache& kernels, const std::vector<Plan>& plans) {
   for (const auto& kernel : kernels.getAll(requests, [&](std::size_t done, std::size_t) { progress.at(done); }))
     if (!kernel.file.empty()) warnings.insert(exactnessWarning(kernel));
   for (const auto& warning : warnings)
-    if (!warning.empty()) fmt::print(stderr, "warning: {}\n", warning);
+    if (!warning.empty()) say(stderr, "warning: {}\n", warning);
 }
 
 Run beginRun(const Scene& scene, const Variant& variant, const Device& device, const KernelCache& kernels) {

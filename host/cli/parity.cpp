@@ -21,6 +21,7 @@
 #include "host/cli/table.h"
 #include "host/compiler-tools.h"
 #include "host/files.h"
+#include "host/terminal.h"
 #include "host/vulkan/vulkan-device.h"
 
 namespace tessera::cli {
@@ -60,8 +61,8 @@ class Parity {
     for (const auto& attempt : attempts_)
       if (auto& device = devices_[attempt.device]; !device) device = openDevice(attempt.device, options.threads);
     if (options.devices.empty()) {
-      for (const auto& note : listVulkanAdapters().notes) fmt::print(stderr, "vulkan: {}\n", note);
-      if (devices_.size() == 1 && devices_.contains("cpu")) fmt::print(stderr, "the CPU alone is compared\n");
+      for (const auto& note : listVulkanAdapters().notes) say(stderr, "vulkan: {}\n", note);
+      if (devices_.size() == 1 && devices_.contains("cpu")) say(stderr, "the CPU alone is compared\n");
     }
     scene_ = sceneOf(options);
   }
@@ -209,11 +210,11 @@ void writeReplayOf(Parity& parity, const std::vector<Outcome>& outcomes, const P
   try {
     replay = parity.replay(outcomes);
   } catch (const Error& error) {
-    fmt::print(stderr, "no replay: {}\n", error.what());
+    say(stderr, "no replay: {}\n", error.what());
     return;
   }
   if (!replay) {
-    fmt::print(stderr, "no replay: it begins after the transform and ends before the shading, and between them all is equal\n");
+    say(stderr, "no replay: it begins after the transform and ends before the shading, and between them all is equal\n");
     return;
   }
   const Scene& scene = replay->reduced.scene;
@@ -221,7 +222,7 @@ void writeReplayOf(Parity& parity, const std::vector<Outcome>& outcomes, const P
   OutputFile output(file);
   writeReplay(output.path(), scene);
   output.commit();
-  fmt::print(stderr, "wrote {}: {} of {} triangles{}, which show it again: tessera parity {}{}\n", file.string(),
+  say(stderr, "wrote {}: {} of {} triangles{}, which show it again: tessera parity {}{}\n", file.string(),
              grouped(scene.triangles.size()), grouped(parity.scene().triangles.size()),
              replay->reduced.least ? " (none can be left out)" : " (the time for fewer was up)", quoted(file.string()),
              replay->options);
@@ -242,7 +243,7 @@ ExitCode runParity(const ParityOptions& options) {
     writeText(options.json, rows);
   }
   if (!options.quiet)
-    fmt::print(options.json == "-" ? stderr : stdout, "{}", parityReport(parity.scene(), outcomes));
+    say(options.json == "-" ? stderr : stdout, "{}", parityReport(parity.scene(), outcomes));
   const ExitCode code = exitCode(outcomes);
   if (code == ExitCode::kDifference && !replayed) writeReplayOf(parity, outcomes, options);
   return code;

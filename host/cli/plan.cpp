@@ -11,6 +11,7 @@
 #include "host/cli/common.h"
 #include "host/cli/table.h"
 #include "host/stages.h"
+#include "host/terminal.h"
 
 namespace tessera::cli {
 namespace {
@@ -42,7 +43,7 @@ ExitCode runPlan(const PlanOptions& options) {
   const auto device = openDevice(options);
   const Plan plan = makePlan(sceneOf(options), variant, device->info());
   kernelRequests(plan, files);  // refuses a file of a stage that the plan leaves out, or that the device cannot take
-  fmt::print("{}", options.json ? planJson(plan, files) : planTable(plan, files));
+  say(stdout, "{}", options.json ? planJson(plan, files) : planTable(plan, files));
   return ExitCode::kDone;
 }
 

@@ -7,6 +7,8 @@
 #include <atomic>
 #include <cstdio>
 
+#include "host/terminal.h"
+
 namespace tessera::cli {
 namespace {
 
@@ -60,7 +62,7 @@ void Progress::draw() {
     const double left = seconds / static_cast<double>(done_) * static_cast<double>(total_ - done_);
     line += fmt::format(", about {:.0f} s left", left);
   }
-  line = terminal_ ? "\r\033[K" + line : line + '\n';
+  line = terminal_ ? "\r\033[K" + visible(line) : visible(line) + '\n';
   std::fputs(line.c_str(), stderr);
   std::fflush(stderr);
   drawn_ = true;

@@ -15,6 +15,11 @@ Variant exactVariant(const Variant& asked, const Variant& resolved);
 /// on the same device under `asked` without its approximate values.
 void measureAgainstOracle(Run& run, const Variant& asked, const Framebuffer& image, Rasterizer& rasterizer);
 
+/// Pixels whose triangle is not the oracle's: by id, or where a commit keeps a colour in its place, by a colour that is
+/// farther from the exact one than the commit's bound. Absent where neither is held.
+Difference::Count wrongWinners(const Variant& resolved, const Difference& difference, const Framebuffer& expected,
+                               const Framebuffer& image);
+
 /// A line for each error that `run` has; "" where none was measured.
 std::string errorSummary(const Run& run);
 

@@ -16,6 +16,7 @@
 #include "host/kernel-cache.h"
 #include "host/rasterizer.h"
 #include "host/row.h"
+#include "host/terminal.h"
 
 namespace tessera::cli {
 namespace {
@@ -123,8 +124,8 @@ ExitCode render(const RenderOptions& options) {
   for (auto& output : images) output.write(image, run.attributeRange);
   writeRow();
   if (options.quiet) return ExitCode::kDone;
-  fmt::print(options.json == "-" ? stderr : stdout, "{}", summary(options, run, coveredPixels(image)));
-  fmt::print(stderr, "{}", timesWarning(run));
+  say(options.json == "-" ? stderr : stdout, "{}", summary(options, run, coveredPixels(image)));
+  say(stderr, "{}", timesWarning(run));
   return ExitCode::kDone;
 }
 

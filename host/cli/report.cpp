@@ -24,23 +24,33 @@ namespace {
 namespace fs = std::filesystem;
 
 struct ReportOptions {
-  std::string folder, exported;
+  std::string folder, out, exported;
   bool allDevices = false, quiet = false;
 };
 
-/// Rows come from the journal where there is one; a folder of merged rows has none.
-void bringRowsUpToDate(const fs::path& folder) {
+/// What is reported, and the report's folder unless another is asked for.
+struct Place {
+  fs::path rows, report;
+};
+
+/// Rows come from the journal where there is one; a folder of merged rows has none. A committed experiment has
+/// results.jsonl, and stays as it is.
+Place bringRowsUpToDate(const fs::path& folder) {
   std::error_code error;
   const std::string sweepFirst = fmt::format("'tessera sweep SWEEP.toml --out {}' makes them", folder.string());
   if (!fs::is_directory(folder, error))
     failUsage(fmt::format("{}: not a folder; a sweep's results are one, and {}", folder.string(), sweepFirst));
   const fs::path rows = folder / "rows.jsonl", journal = folder / "journal.jsonl";
   const bool haveRows = fs::exists(rows, error), haveJournal = fs::exists(journal, error);
+  const fs::path results = folder / "results.jsonl";
+  if (!haveRows && !haveJournal && fs::exists(results, error))
+    return {results, fs::path("out") / "report" / fs::canonical(folder).filename()};
   if (!haveRows && !haveJournal)
-    failUsage(fmt::format("{}: neither rows.jsonl nor journal.jsonl is there: nothing to report; {}", folder.string(),
+    failUsage(fmt::format("{}: neither rows.jsonl, journal.jsonl nor results.jsonl is there: nothing to report; {}", folder.string(),
                           sweepFirst));
   // Not by the files' times, which a copy changes.
   if (haveJournal) harness::deriveRows(folder);
+  return {rows, folder / "report"};
 }
 
 /// $TESSERA_PYTHON, else that of the environment which ./dev makes and `cmake --install` copies, else of the one that
@@ -61,11 +71,12 @@ std::string pythonProgram() {
 }
 
 ExitCode runReport(const ReportOptions& options) {
-  bringRowsUpToDate(options.folder);
+  const Place place = bringRowsUpToDate(options.folder);
+  const std::string report = options.out.empty() ? place.report.string() : options.out;
   // -I: neither the user's own packages nor $PYTHONPATH may get between; -B: nothing is written beside the sources.
   const std::string schema = std::to_string(kRowSchemaVersion);
   std::vector<std::string> words{
-      pythonProgram(), "-I", "-B", home().report.string(), options.folder, "--schema", schema};
+      pythonProgram(), "-I", "-B", home().report.string(), place.rows.string(), "--out", report, "--schema", schema};
   if (!options.exported.empty()) words.insert(words.end(), {"--export", options.exported});
   if (options.allDevices) words.push_back("--all-devices");
   std::vector<char*> arguments;
@@ -85,12 +96,21 @@ Command addReport(CLI::App& app) {
   auto options = std::make_shared<ReportOptions>();
   auto* const command = app.add_subcommand(
       "report", "make a page and figures from a sweep's results: DIR/report/index.html and DIR/report/figures");
-  command->add_option("DIR", options->folder, "a sweep's folder, or one with rows.jsonl and sweep.toml")->required();
+  command
+      ->add_option("DIR", options->folder,
+                   "a sweep's folder, one with rows.jsonl and sweep.toml, or an experiment's with results.jsonl")
+      ->required();
+  command
+      ->add_option("--out", options->out, "the report's folder; without it DIR/report, of results.jsonl out/report/NAME")
+      ->type_name("FOLDER");
   command->add_option("--export", options->exported, "the rows as a table, too")->type_name("FILE.parquet|FILE.duckdb");
   command->add_flag("--all-devices", options->allDevices,
                     "software drivers' times on the plots, too, marked in their names");
   addQuiet(*command, options->quiet);
-  command->footer("Example:\n  tessera report out/tile --export tile.parquet");
+  command->footer(
+      "Examples:\n"
+      "  tessera report out/tile --export tile.parquet\n"
+      "  tessera report experiments/tile-size");
   return {command, [options] { return runReport(*options); }};
 }
 

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "host/cli/commands.h"
+#include "host/terminal.h"
 #include "host/variant.h"
 
 namespace tessera::cli {
@@ -122,7 +123,7 @@ Command addVariants(CLI::App& app) {
   auto* const json = command->add_flag("--json", options->json, "print JSON");
   command->add_flag("--markdown", options->markdown, "print the table of the docs")->excludes(json);
   return {command, [options] {
-            fmt::print("{}", options->json ? axesJson() : options->markdown ? axesMarkdown() : axesText());
+            say(stdout, "{}", options->json ? axesJson() : options->markdown ? axesMarkdown() : axesText());
             return ExitCode::kDone;
           }};
 }

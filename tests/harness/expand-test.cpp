@@ -130,3 +130,21 @@ TEST_CASE("expand refuses a broken sweep in one line") {
     CHECK(says(outcome.err, named));
   }
 }
+
+TEST_CASE("The first cell that is not refused is the reference unless the sweep names another") {
+  Desk desk;
+  const std::string sweep =
+      "title = \"T\"\nquestion = \"Q\"\nsizes = [32]\n[scenes]\nball = \"generate:icosphere?level=1\"\n"
+      "[axes]\nbinning = [\"none\", \"exact\"]\ntile = [8, 16]\n";
+  desk.write("a.toml", sweep);
+  const auto first = desk.tessera("expand a.toml --no-estimate");
+  INFO(first.out << first.err);
+  CHECK(says(first.out, "    2  binning=exact tile=8  (reference, each twice)\n"));
+  const json all = json::parse(desk.tessera("expand a.toml --no-estimate --json").out);
+  CHECK(all["cells"][1]["twin"] == true);
+  CHECK(all["cells"][1]["asked"] == all["cells"][3]["asked"]);
+  CHECK(all["cells"][3]["reference"] == true);
+  CHECK(all["cells"][1]["refused"].is_null());
+  desk.write("a.toml", sweep + "[reference]\nbinning = \"none\"\n");
+  CHECK(says(desk.tessera("expand a.toml --no-estimate").out, "(reference, but refused: no ratios)"));
+}

@@ -33,7 +33,7 @@ class Command(unittest.TestCase):
   def testNothingToReport(self):
     self.refused(tessera("report", self.folder), 2, "results: not a folder", "tessera sweep")
     self.folder.mkdir()
-    self.refused(tessera("report", self.folder), 2, "neither rows.jsonl nor journal.jsonl", "tessera sweep")
+    self.refused(tessera("report", self.folder), 2, "neither rows.jsonl, journal.jsonl nor results.jsonl", "tessera sweep")
     (self.folder / "rows.jsonl").write_text("\n")
     self.refused(tessera("report", self.folder), 2, "rows.jsonl: no rows")
 

@@ -2,9 +2,13 @@
 #include "experiments/harness/journal.h"
 
 #include <catch2/catch.hpp>
+#include <array>
 #include <fstream>
 
+#include "datasets/random.h"
 #include "datasets/text.h"
+#include "experiments/harness/folder.h"
+#include "experiments/harness/rows.h"
 #include "host/error.h"
 #include "host/files.h"
 #include "host/row.h"
@@ -29,4 +33,103 @@ TEST_CASE("A journal that another sweep has begun or added to stays as it is") {
   Journal journal(folder);
   CHECK_THROWS_WITH(journal.cut(before), Catch::Contains("another sweep has written to it meanwhile"));
   CHECK(readFile(journalOf(folder)) == added);
+}
+
+namespace {
+
+/// A journal of one cell, checked and sampled once.
+std::string smallJournal() {
+  const Json sweep{{"title", "T"}, {"question", "Q"}, {"sha256", "0"}};
+  Json cell{{"cell", 0}, {"name", "n"}, {"command", "c"}, {"sweep", sweep}};
+  cell["sweep"].update({{"cell", 0}, {"group", 0}, {"reference", true}, {"twin", false}, {"asked", {{"tile", "8"}}},
+                        {"swept", {"tile"}}, {"scene", "s"}, {"device", "cpu"}, {"threads", 1}});
+  const Json row{{"schema_version", kRowSchemaVersion}, {"run_id", "r"}, {"variant", {{"tile", "8"}}},
+                 {"scene", {{"name", "s"}, {"size", {8, 8}}}}, {"status", "ok"}, {"error", {{"id_mismatch", nullptr}}},
+                 {"provenance", {{"cpu", "c"}}}, {"clock", "wall"}};
+  return lineOf({{"kind", "head"}, {"schema_version", kRowSchemaVersion}, {"sweep", sweep}, {"quick", false},
+                 {"rounds", 2}, {"repeats", 1}, {"jobs", {"s@cpu"}}, {"cells", Json::array({cell})}}) +
+         lineOf({{"kind", "session"}, {"session", 0}}) +
+         lineOf({{"kind", "cell"}, {"cell", 0}, {"session", 0}, {"frame_s", 0.5}, {"row", row}}) +
+         lineOf({{"kind", "sample"}, {"cell", 0}, {"round", 0}, {"repeat", 0}, {"session", 0}, {"total_ns", 5},
+                 {"stages", {{"setup", 5}}}});
+}
+
+void put(const std::filesystem::path& path, const std::string& text) {
+  std::ofstream file(path, std::ios::binary);
+  file << text;
+}
+
+}  // namespace
+
+TEST_CASE("What is wrong in a journal is said with its line and key") {
+  const TemporaryFolder desk(std::filesystem::temp_directory_path(), "tessera-journal");
+  const std::string whole = smallJournal();
+  put(journalOf(desk.path()), whole);
+  REQUIRE_NOTHROW(rowsText(readJournal(desk.path())));
+  for (const auto& [part, other, message] : std::vector<std::array<std::string, 3>>{
+           {"\"round\":0", "\"round\":2", ":4: no line of a sweep's journal: round: is 2; a whole number up to 1"},
+           {"\"round\":0", "\"round\":-1", ":4: no line of a sweep's journal: round: is -1"},
+           {"\"total_ns\":5", "\"total_ns\":\"5\"", ":4: no line of a sweep's journal: total_ns: is \"5\""},
+           {"\"total_ns\":5", "\"total_ns\":1e999", ":4: no line of a sweep's journal: is not JSON"},
+           {"\"frame_s\":0.5,", "", ":3: no line of a sweep's journal: frame_s: is missing"},
+           {"\"status\":\"ok\"", "\"status\":\"fine\"", ":3: no line of a sweep's journal: status: is \"fine\""},
+           {"\"provenance\":{", "\"provenances\":{", ":3: no line of a sweep's journal: provenance: is missing"},
+           {"\"id_mismatch\":null", "\"id_mismatch\":[]", ":3: no line of a sweep's journal: error.id_mismatch: is a list"},
+           {"\"twin\":false", "\"twin\":0", ":1: no line of a sweep's journal: twin: is 0"},
+           {"\"cpu\":\"c\"", "\"cpu\":" + std::string(99, '[') + std::string(99, ']'), ":3: no line of a sweep's journal: nested"}}) {
+    std::string text = whole;
+    text.replace(text.find(part), part.size(), other);
+    put(journalOf(desk.path()), text);
+    CHECK_THROWS_WITH(readJournal(desk.path()), Catch::Contains(message));
+  }
+}
+
+TEST_CASE("Rows that the journal beside them has lost stay as they are") {
+  const TemporaryFolder desk(std::filesystem::temp_directory_path(), "tessera-journal");
+  const std::string whole = smallJournal(), samplesGone = whole.substr(0, whole.rfind('\n', whole.size() - 2) + 1);
+  put(journalOf(desk.path()), whole);
+  deriveRows(desk.path());
+  const std::string rows = readFile(desk.path() / "rows.jsonl");
+  for (const auto& text : {samplesGone, whole.substr(0, whole.find('\n') + 1)}) {
+    put(journalOf(desk.path()), text);
+    CHECK_THROWS_WITH(deriveRows(desk.path()), Catch::Contains("rows.jsonl:1: "));
+    CHECK_THROWS_WITH(recordOf(desk.path(), true), Catch::Contains("rows.jsonl:1: "));
+    CHECK(readFile(desk.path() / "rows.jsonl") == rows);
+  }
+}
+
+TEST_CASE("Damaged journals are read or refused and never more") {
+  const TemporaryFolder desk(std::filesystem::temp_directory_path(), "tessera-journal");
+  const std::string whole = smallJournal();
+  constexpr std::uint64_t kSeed = 14;
+  INFO("seed " << kSeed);
+  Random random(kSeed);
+  const auto below = [&](std::size_t n) { return static_cast<std::size_t>(random.bits() % n); };
+  const std::array words{"null", "-1", "1e400", "\"x\"", "[]", "{}", "true", "18446744073709551615", "0.5", "\x01", "\xff", "\n", "}", "\""};
+  std::size_t refused = 0;
+  for (int run = 0; run < 2000; ++run) {
+    std::string text = whole;
+    for (std::size_t change = 0; change <= below(3); ++change) {
+      const std::size_t at = below(text.size());
+      switch (below(5)) {
+        case 0: text[at] = static_cast<char>(random.bits()); break;
+        case 1: text.erase(at, 1 + below(20)); break;
+        case 2: text.insert(at, words[below(words.size())]); break;
+        case 3: {  // a value for another
+          const std::size_t colon = text.find(':', at);
+          if (colon != std::string::npos) text.replace(colon + 1, text.find_first_of(",}", colon) - colon - 1, words[below(words.size())]);
+          break;
+        }
+        default: text.resize(at + 1);
+      }
+    }
+    put(journalOf(desk.path()), text);
+    try {
+      rowsText(readJournal(desk.path()));
+    } catch (const Error& error) {
+      ++refused;
+      CHECK(error.code() == ExitCode::kUsage);
+    }
+  }
+  CHECK(refused > 1000);
 }

@@ -126,3 +126,31 @@ TEST_CASE("A worker that is killed costs the cell that it was at") {
   }
   CHECK(ok == 3);
 }
+
+TEST_CASE("Where the reference is refused there is no ratio and where none is named another cell takes its place") {
+  Desk desk;
+  const std::string sweep = head("rounds = 2\n[scenes]\nball = \"generate:icosphere?level=1\"\n[axes]\n"
+                                 "projection = [\"orthographic\", \"perspective\"]\n");
+  desk.write("first.toml", sweep);
+  REQUIRE(desk.tessera("sweep first.toml --out first").code == 0);
+  const auto rows = linesOf(desk, "first/rows.jsonl");
+  REQUIRE(rows.size() == 3);
+  CHECK(rows[0]["status"] == "unsupported");
+  CHECK(rows[0]["sweep"]["reference"] == false);
+  CHECK(rows[1]["sweep"]["twin"] == true);
+  CHECK(rows[1]["sweep"]["asked"] == rows[2]["sweep"]["asked"]);
+  CHECK(rows[2]["sweep"]["reference"] == true);
+  for (const std::size_t timed : {1, 2}) CHECK(rows[timed]["time_ns"]["samples"].size() == 2);
+  // What was begun so goes on so.
+  const std::string journal = desk.read("first/journal.jsonl");
+  desk.write("first/journal.jsonl", journal.substr(0, journal.rfind('\n', journal.size() - 2) + 1));
+  std::filesystem::remove(desk.path() / "first/rows.jsonl");
+  REQUIRE(desk.tessera("sweep first.toml --out first --resume").code == 0);
+  CHECK(linesOf(desk, "first/rows.jsonl")[1]["sweep"] == rows[1]["sweep"]);
+
+  desk.write("named.toml", sweep + "[reference]\nprojection = \"orthographic\"\n");
+  const auto outcome = desk.tessera("sweep named.toml --out named");
+  REQUIRE(outcome.code == 0);
+  CHECK(outcome.out.find("0.000") == std::string::npos);
+  CHECK(outcome.out.find("perspective ") != std::string::npos);
+}

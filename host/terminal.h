@@ -1,0 +1,24 @@
+// Text for a terminal. Names come from files, devices and command lines, and may hold what a terminal obeys.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace tessera {
+
+/// The text with each control character but the line's end and the tab, each sign that turns the direction of writing,
+/// and each byte that is not UTF-8 written out: "\u001b", "\u202e", "\xff". Text of JSON stays JSON with the same values.
+std::string visible(std::string_view text);
+
+/// Prints to stdout or stderr what people read.
+template <typename... Arguments>
+void say(std::FILE* file, fmt::format_string<Arguments...> format, Arguments&&... arguments) {
+  const std::string text = visible(fmt::format(format, std::forward<Arguments>(arguments)...));
+  std::fwrite(text.data(), 1, text.size(), file);
+}
+
+}  // namespace tessera
