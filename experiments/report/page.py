@@ -43,12 +43,7 @@ class Page:
   def summary(self):
     sweep = self.sweep
     real = [cell for cell in sweep.cells if not cell.twin]
-    statuses = {}
-    for cell in real:
-      statuses[cell.status] = statuses.get(cell.status, 0) + 1
-    counts = ", ".join(f"{number:,} {status}" for status, number in statuses.items())
-    quick = " of a --quick sweep" if sweep.cells[0].row["sweep"].get("quick") else ""
-    lines = [f"{words.count(len(real), 'cell')}{quick}: {counts}."]
+    lines = [self.counts()]
     groups = [group for group in sweep.groups if group.candidates and not self.hidden(group)]
     if groups:
       if sweep.swept:
@@ -78,6 +73,22 @@ class Page:
     if groups and sweep.swept:
       html += self.fastestTable(groups)
     return html + self.failures(real)
+
+  def outcome(self):
+    """One line: what is fastest; where nothing is timed or varies, how the cells ended."""
+    groups = [group for group in self.sweep.groups if group.candidates and not self.hidden(group)]
+    if groups and self.sweep.swept:
+      return self.fastestWords(groups)
+    return self.counts()
+
+  def counts(self):
+    real = [cell for cell in self.sweep.cells if not cell.twin]
+    statuses = {}
+    for cell in real:
+      statuses[cell.status] = statuses.get(cell.status, 0) + 1
+    counts = ", ".join(f"{number:,} {status}" for status, number in statuses.items())
+    quick = " of a --quick sweep" if self.sweep.cells[0].row["sweep"].get("quick") else ""
+    return f"{words.count(len(real), 'cell')}{quick}: {counts}."
 
   def hidden(self, group):
     return all(cell.values["device"] in self.plots.hiddenDevices for cell in group.cells)

@@ -18,6 +18,7 @@
 #include "host/stages.h"
 #include "host/suggest.h"
 #include "host/user-kernel.h"
+#include "host/terminal.h"
 #include "host/vulkan/vulkan-device.h"
 
 namespace tessera::cli {
@@ -220,7 +221,7 @@ Scene sceneOf(const Options& options) {
                                  static_cast<double>(total) / kMegabyte));
     });
   }();
-  for (const std::string& note : scene.notes) fmt::print(stderr, "warning: {}\n", note);
+  for (const std::string& note : scene.notes) say(stderr, "warning: {}\n", note);
   return scene;
 }
 

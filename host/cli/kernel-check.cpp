@@ -13,6 +13,7 @@
 #include "host/cpu/cpu-device.h"
 #include "host/cpu/kernel-fault.h"
 #include "host/error.h"
+#include "host/terminal.h"
 #include "host/plan.h"
 #include "host/stages.h"
 #include "host/user-kernel.h"
@@ -46,7 +47,7 @@ class Patience {
     std::unique_lock lock(mutex_);
     if (done_.wait_for(lock, kPatience, [&] { return ended_; })) return;
     const char* const kernel = runningKernel();
-    fmt::print(stderr, "{} runs since {} s, with bounds checks; Ctrl-C stops it\n",
+    say(stderr, "{} runs since {} s, with bounds checks; Ctrl-C stops it\n",
                kernel != nullptr ? kernel : "the checked frame", kPatience.count());
   }) {}
   ~Patience() {

@@ -131,5 +131,5 @@ TEST_CASE("Damaged journals are read or refused and never more") {
       CHECK(error.code() == ExitCode::kUsage);
     }
   }
-  CHECK(refused > 1000);
+  CHECK(refused > 500);
 }

@@ -1,0 +1,167 @@
+"""Rows that are damaged or foreign: each is a page or one line, never a traceback; what was there before stays."""
+
+import contextlib
+import io
+import json
+import os
+from pathlib import Path
+import random
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import support
+import numpy
+import png
+import pictures
+import plots
+import sample
+import schema
+import visible
+from refused import Refused
+from support import only
+
+kSeed = 14
+kValues = [None, True, -1, 0, 1e-320, 10**400, 3.5, "", "\x1b[31m", "\u202e", "$\\frac$", "../../x", [], {}, [None], {"a": 1}, "x" * 5000]
+
+
+def mutate(random_, value):
+  """One change somewhere in a value of JSON."""
+  while True:
+    keys = list(value) if isinstance(value, dict) else list(range(len(value)))
+    if not keys:
+      return
+    key = random_.choice(keys)
+    if isinstance(value[key], (dict, list)) and random_.random() < 0.8:
+      value = value[key]
+    elif isinstance(value, dict) and random_.random() < 0.3:
+      del value[key]
+      return
+    else:
+      value[key] = random_.choice(kValues)
+      return
+
+
+class Damage(unittest.TestCase):
+  def setUp(self):
+    self.temporary = tempfile.TemporaryDirectory()
+    self.folder = sample.write(Path(self.temporary.name) / "results", only(scene="ball", edge=256, device="cpu", cpu="AMD EPYC"))
+    self.rows = self.folder / "rows.jsonl"
+    self.lines = self.rows.read_text().splitlines(keepends=True)
+
+  def tearDown(self):
+    self.temporary.cleanup()
+
+  def read(self):
+    """None, or the line that it was refused with."""
+    try:
+      made = plots.Plots(support.read(self.folder), False)
+      import page
+
+      page.Page(made.sweep, made, []).html().encode()
+    except Refused as refused:
+      return str(refused)
+    return None
+
+  def testMutations(self):
+    random_ = random.Random(kSeed)
+    refused = 0
+    for run in range(60):
+      lines = list(self.lines)
+      index = random_.randrange(len(lines))
+      if random_.random() < 0.7:
+        row = json.loads(lines[index])
+        for _ in range(random_.randint(1, 3)):
+          mutate(random_, row)
+        lines[index] = json.dumps(row, ensure_ascii=random_.random() < 0.5) + "\n"
+        data = "".join(lines).encode("utf-8", "surrogatepass")
+      else:
+        data = bytearray("".join(lines).encode())
+        for _ in range(random_.randint(1, 4)):
+          data[random_.randrange(len(data))] = random_.randrange(256)
+      self.rows.write_bytes(bytes(data))
+      with self.subTest(seed=kSeed, run=run):
+        line = self.read()
+        if line is not None:
+          refused += 1
+          self.assertNotIn("\n", line)
+          self.assertIn("rows.jsonl", line)
+    self.assertGreater(refused, 15)
+
+  def testWhatIsWrongIsNamed(self):
+    row = json.loads(self.lines[0])
+
+    def refusedWith(change, *parts):
+      self.rows.write_text(change if isinstance(change, str) else json.dumps(row | change) + "\n")
+      line = self.read()
+      self.assertIsNotNone(line, change)
+      for part in ("rows.jsonl:1: ", *parts):
+        self.assertIn(part, line)
+
+    refusedWith({"status": 3}, "status: is 3; one of ok, overflow")
+    refusedWith({"sweep": row["sweep"] | {"cell": "4"}}, 'sweep.cell: is "4"; a whole number would be right')
+    refusedWith({"sweep": row["sweep"] | {"swept": ["../../x"]}}, "sweep.swept", "the name of an axis")
+    refusedWith({"time_ns": row["time_ns"] | {"rounds": [0]}}, "time_ns.rounds: 1 of them; one for each of the 7")
+    refusedWith({"error": {"id_mismatch": "many"}}, "error.id_mismatch", "a number or null")
+    refusedWith({"provenance": {"threads": -1}}, "provenance.threads: is -1; a number from 0")
+    refusedWith(json.dumps(row).replace('"status"', '"status": "ok", "status"') + "\n", "there twice")
+    refusedWith(json.dumps(row).replace('[256', '[NaN', 1) + "\n", "NaN is no number")
+    refusedWith("[" * 100000 + "\n", "nested too deeply")
+    refusedWith('{"event": "started"}\n', "not a row")
+    self.rows.write_bytes(b"\xff\xfe\x00\n")
+    self.assertIn("not UTF-8", self.read())
+    self.rows.unlink()
+    self.rows.mkdir()
+    self.assertIn("not a file", self.read())
+
+  def testSweepFiles(self):
+    for plot, part in (("curve = 3", "plot.curve"), ('heat = [["tile"]]', "plot.heat"), ("error = 1", "plot.error"),
+                       ('heat = [["tile", "tile"]]', "against itself")):
+      (self.folder / "sweep.toml").write_text(f'title = "Sample"\n[plot]\n{plot}\n')
+      self.assertIn(part, self.read())
+
+  def testPicturesOutsideTheFolder(self):
+    secret = Path(self.temporary.name) / "secret.png"
+    sample.picture(secret, 64)
+    (self.folder / "pictures").mkdir(exist_ok=True)
+    (self.folder / "pictures" / "link.png").symlink_to(secret)
+    for name in (str(secret), "../secret.png", "pictures/link.png", "pictures/../../secret.png"):
+      row = json.loads(self.lines[0]) | {"picture": name}
+      self.rows.write_text(json.dumps(row) + "\n")
+      self.assertIn("rows.jsonl:1: picture: ", self.read() or "", name)
+      self.assertIn("lies outside the folder", self.read())
+
+  def testSchemaHasTheRowsOnRecord(self):
+    checker = schema.Checker()
+    experiments = sorted((support.kSource / "experiments").glob("*/sweep.toml"))
+    self.assertGreater(len(experiments), 5)
+    for experiment in experiments:
+      for line, row in schema.read(experiment.with_name("results.jsonl"), support.kSchema):
+        self.assertIsNone(checker.refusal(row), f"{experiment}: {line}")
+
+  def testRowsOfVersion2HaveNoZeroForWhatIsNotHeld(self):
+    rows = [row for _, row in schema.read(support.kSource / "experiments" / "edge-arithmetic" / "results.jsonl", 2)]
+    self.assertTrue(all(row["error"]["hit_count_mismatch"] is None for row in rows if "error" in row))
+
+  def testTextForTheTerminal(self):
+    self.assertEqual(visible.visible("a\x1b[31m\x9b\u202e\x00\n"), "a\\u001b[31m\\u009b\\u202e\\u0000\n")
+
+
+class Large(unittest.TestCase):
+  def testAPictureBeyondPillowsLimit(self):
+    width, height = 20000, 10000  # 200 million pixels
+    row, wrong = bytes([230]) * (3 * width), bytearray(bytes([230]) * (3 * width))
+    wrong[3 * 19998 : 3 * 19998 + 3] = bytes((213, 94, 0))
+    with tempfile.TemporaryDirectory() as folder:
+      path = Path(folder) / "large.png"
+      with path.open("wb") as file:
+        png.Writer(width, height, greyscale=False, compression=1).write(file, (wrong if y == 7001 else row for y in range(height)))
+      pixels, factor, size = pictures.read(path)
+    self.assertEqual((size, factor, pixels.shape), ((width, height), 79, (127, 254, 3)))
+    self.assertEqual(tuple(pixels[7001 // 79, 19998 // 79]), (213, 94, 0))
+    self.assertEqual(int((pixels.max(axis=2) != pixels.min(axis=2)).sum()), 1)
+
+
+if __name__ == "__main__":
+  unittest.main()
