@@ -44,7 +44,7 @@ TEST_CASE("Folders and inputs that will not do are refused in a line") {
   REQUIRE(desk.tessera("sweep tile.toml --out out").code == 0);
   checkRefused(desk, "tile.toml --out out", "--resume goes on with it");
   checkRefused(desk, "other.toml --out out --resume", "of another file");
-  checkRefused(desk, "tile.toml --out new --job cube@cpu", "there are ball@cpu");
+  checkRefused(desk, "tile.toml --out new --job cube@cpu", "ball@cpu");
   checkRefused(desk, "tile.toml --out new --quick", "quick");
 
   const std::string journal = desk.read("out/journal.jsonl");

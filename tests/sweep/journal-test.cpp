@@ -19,7 +19,9 @@ using namespace tessera::harness;
 TEST_CASE("A journal that another sweep has begun or added to stays as it is") {
   const TemporaryFolder desk(std::filesystem::temp_directory_path(), "tessera-journal");
   const auto& folder = desk.path();
-  const Json head{{"kind", "head"}, {"schema_version", kRowSchemaVersion}, {"cells", Json::array()}};
+  const Json head{{"kind", "head"}, {"schema_version", kRowSchemaVersion},
+                  {"sweep", {{"title", "T"}, {"question", "Q"}, {"sha256", "0"}}},
+                  {"quick", false}, {"rounds", 1}, {"repeats", 1}, {"jobs", Json::array()}, {"cells", Json::array()}};
   Journal::create(folder, head);
   const std::string first = readFile(journalOf(folder));
   CHECK_THROWS_WITH(Journal::create(folder, head), Catch::Contains("another sweep has begun there meanwhile"));
