@@ -73,7 +73,9 @@ class Cell:
   def error(self, source, name):
     """A number of `error` or `truth_error`; None where it was not measured."""
     value = self.row.get(source, {}).get(name)
-    return float(value) if isinstance(value, (int, float)) else None
+    if not isinstance(value, (int, float)):
+      return None
+    return float(value) if abs(value) > 1e-100 else 0.0  # far below the least float32: an axis of powers of ten ends before
 
   def mismatches(self, source="error"):
     """0 where all that was compared is equal."""
