@@ -62,6 +62,7 @@ Survey survey(const Sweep& sweep, const std::vector<Cell>& cells, KernelCache& k
       const SweepScene& input = sweep.scenes[cell.scene];
       progress.at(cell.number, "loading " + input.name);
       scene = loadInput(input.input, cell.size.width, cell.size.height, input.attribute);
+      cli::printNotes(*scene);
       loaded = cell.scene;
       size = cell.size;
     }

@@ -105,7 +105,10 @@ class Worker {
  private:
   const Scene& sceneOf(const WorkerCell& cell) {
     const auto [place, isNew] = scenes_.try_emplace({cell.size.width, cell.size.height});
-    if (isNew) place->second = loadInput(job_.input, cell.size.width, cell.size.height, job_.attribute);
+    if (isNew) {
+      place->second = loadInput(job_.input, cell.size.width, cell.size.height, job_.attribute);
+      cli::printNotes(place->second);
+    }
     return place->second;
   }
 

@@ -8,6 +8,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <set>
 
 #include "datasets/input.h"
 #include "datasets/text.h"
@@ -211,6 +212,12 @@ AttributeRequest attributeOf(const Options& options) {
   return request;
 }
 
+void printNotes(const Scene& scene) {
+  static std::set<std::string> printed;
+  for (const std::string& note : scene.notes)
+    if (printed.insert(note).second) say(stderr, "warning: {}\n", note);
+}
+
 Scene sceneOf(const Options& options) {
   const Size size = options.size.empty() ? Size{0, 0} : parseSize(options.size);  // 0: the scene's own
   Scene scene = [&] {
@@ -221,7 +228,7 @@ Scene sceneOf(const Options& options) {
                                  static_cast<double>(total) / kMegabyte));
     });
   }();
-  for (const std::string& note : scene.notes) say(stderr, "warning: {}\n", note);
+  printNotes(scene);
   return scene;
 }
 
