@@ -16,8 +16,12 @@ namespace {
 Matrix clipFromWorld(const Camera& camera, double slope, double aspect) {
   const double top = slope * camera.near, right = top * aspect;
   // Bottom and top change places: y points down in Vulkan's clip space.
-  const glm::dmat4 clip = glm::frustumRH_ZO(-right, right, top, -top, camera.near, camera.far) *
-                          glm::lookAtRH(camera.eye, camera.target, camera.up);
+  glm::dmat4 clip = glm::frustumRH_ZO(-right, right, top, -top, camera.near, camera.far) *
+                    glm::lookAtRH(camera.eye, camera.target, camera.up);
+  // A matrix to clip space may be of any size; one that float32 has no room for is made smaller.
+  double largest = 0;
+  for (int i = 0; i < 16; ++i) largest = std::fmax(largest, std::abs(clip[i / 4][i % 4]));
+  if (largest > 0x1p126) clip *= std::ldexp(1.0, 60 - std::ilogb(largest));
   Matrix matrix;
   for (int row = 0; row < 4; ++row)
     for (int column = 0; column < 4; ++column)

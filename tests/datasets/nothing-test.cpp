@@ -74,3 +74,13 @@ TEST_CASE("The automatic camera looks at the vertices that faces use") {
   // Far away unused vertices do not choose the origin either.
   CHECK(loadInput(files.path("b.off")).origin == glm::dvec3(0));
 }
+
+TEST_CASE("The automatic camera has numbers wherever float32 has coordinates") {
+  const Files files;
+  const Scene scene = loadInput(files.write("a.off", "OFF\n3 1 0\n-3e38 0 0\n3e38 0 0\n0 3e38 0\n3 0 1 2\n"));
+  const Matrix& m = scene.clipFromObject;
+  for (const glm::vec3& p : scene.positions)
+    for (std::size_t row = 0; row < 16; row += 4)
+      CHECK(std::isfinite(((m[row] * p.x + m[row + 1] * p.y) + m[row + 2] * p.z) + m[row + 3]));
+  CHECK(scene.notes.empty());
+}
