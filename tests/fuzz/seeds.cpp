@@ -107,20 +107,37 @@ std::string replay(const fs::path& folder) {
   return readFile(folder / "seed.replay");
 }
 
+/// Of one cell, checked and sampled once.
 std::string journal() {
-  const std::string head =
-      "{\"kind\":\"head\",\"schema_version\":" + std::to_string(kRowSchemaVersion) +
-      ",\"sweep\":{\"title\":\"t\",\"question\":\"q\",\"sha256\":\"00\"},\"quick\":false,\"rounds\":2,\"repeats\":1,"
-      "\"warm_up\":1,\"time_limit\":60,\"seed\":1,\"jobs\":[\"a\"],\"cells\":[{\"cell\":0,\"name\":\"n\",\"command\":"
-      "\"c\",\"sweep\":{}},"
-      "{\"cell\":1,\"name\":\"m\",\"command\":\"d\",\"sweep\":{}}]}\n";
-  return head +
-         "{\"kind\":\"session\",\"session\":0,\"utc\":\"2026-01-01T00:00:00Z\",\"load\":[1,1,1],\"jobs\":{}}\n"
-         "{\"kind\":\"cell\",\"cell\":0,\"session\":0,\"frame_s\":0.01,\"row\":{\"status\":\"ok\",\"scene\":{"
-         "\"sha256\":\"00\"}}}\n"
-         "{\"kind\":\"sample\",\"cell\":0,\"round\":0,\"repeat\":0,\"session\":0,\"total_ns\":1000,\"stages\":{"
-         "\"setup\":10}}\n"
-         "{\"kind\":\"end\",\"cell\":1,\"session\":0,\"status\":\"error\",\"message\":\"m\"}\n";
+  using harness::Json, harness::lineOf;
+  const Json sweep{{"title", "T"}, {"question", "Q"}, {"sha256", "0"}};
+  Json cell{{"cell", 0}, {"name", "n"}, {"command", "c"}, {"sweep", sweep}};
+  cell["sweep"].update({{"cell", 0},
+                        {"group", 0},
+                        {"reference", true},
+                        {"twin", false},
+                        {"asked", {{"tile", "8"}}},
+                        {"swept", {"tile"}},
+                        {"scene", "s"},
+                        {"device", "cpu"},
+                        {"threads", 1}});
+  const Json row{{"schema_version", kRowSchemaVersion},
+                 {"run_id", "r"},
+                 {"variant", {{"tile", "8"}}},
+                 {"scene", {{"name", "s"}, {"size", {8, 8}}}},
+                 {"status", "ok"},
+                 {"error", {{"id_mismatch", nullptr}}},
+                 {"provenance", {{"cpu", "c"}}},
+                 {"clock", "wall"}};
+  const Json head{{"kind", "head"},    {"schema_version", kRowSchemaVersion},
+                  {"sweep", sweep},    {"quick", false},
+                  {"rounds", 2},       {"repeats", 1},
+                  {"jobs", {"s@cpu"}}, {"cells", Json::array({cell})}};
+  const Json sample{
+      {"kind", "sample"},        {"cell", 0}, {"round", 0}, {"repeat", 0}, {"session", 0}, {"total_ns", 5},
+      {"stages", {{"setup", 5}}}};
+  return lineOf(head) + lineOf({{"kind", "session"}, {"session", 0}}) +
+         lineOf({{"kind", "cell"}, {"cell", 0}, {"session", 0}, {"frame_s", 0.5}, {"row", row}}) + lineOf(sample);
 }
 
 /// What a scene has to be, whatever it was read from.
@@ -157,7 +174,7 @@ std::vector<Target> targets(const fs::path& folder) {
           {"sweep",
            ".toml",
            {readFile(TESSERA_SOURCE_DIR "/experiments/tile-size/sweep.toml"),
-            readFile(TESSERA_SOURCE_DIR "/experiments/languages/sweep.toml"),
+            readFile(TESSERA_SOURCE_DIR "/experiments/packing/sweep.toml"),
             readFile(TESSERA_SOURCE_DIR "/experiments/distance/sweep.toml")},
            [](const fs::path& path) {
              for (const bool quick : {false, true}) harness::cells(harness::readSweep(path, quick));
