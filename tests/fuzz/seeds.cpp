@@ -174,7 +174,7 @@ std::vector<Target> targets(const fs::path& folder) {
           {"sweep",
            ".toml",
            {readFile(TESSERA_SOURCE_DIR "/experiments/tile-size/sweep.toml"),
-            readFile(TESSERA_SOURCE_DIR "/experiments/packing/sweep.toml"),
+            readFile(TESSERA_SOURCE_DIR "/experiments/bin-capacity/sweep.toml"),
             readFile(TESSERA_SOURCE_DIR "/experiments/culling/sweep.toml")},
            [](const fs::path& path) {
              for (const bool quick : {false, true}) harness::cells(harness::readSweep(path, quick));
