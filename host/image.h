@@ -90,7 +90,9 @@ struct Difference {
   std::optional<double> depthMaxAbs;  ///< over the pixels on whose coverage both agree; infinity if one is NaN
   std::optional<double> depthMaxUlp;  ///< the same as distance in float32 steps
   std::optional<double> attributeMax, attributeRms;  ///< of the attribute, where both have a value
+  std::optional<double> colourMax;                   ///< of R, G and B; infinity if one is NaN
   std::optional<double> psnr;                        ///< of colour, dB; infinity when equal
+  std::uint64_t anywhere = 0;                        ///< pixels that differ in any of these
   std::int64_t firstX = -1, firstY = -1;             ///< first differing pixel in row order, -1 if none
   bool equal() const { return firstX < 0; }
 };

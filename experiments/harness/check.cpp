@@ -12,7 +12,8 @@
 #include "host/cli/probe-text.h"
 #include "host/cli/render-error.h"
 #include "host/cli/table.h"
-#include "host/image.h"
+#include "host/comparison.h"
+#include "host/image-facts.h"
 #include "host/probe.h"
 #include "host/stages.h"
 
@@ -76,14 +77,18 @@ void writePicture(Run& run, std::size_t number, const Framebuffer& image, const 
   const bool own = hasMismatch(run.difference);
   if (!own && !hasMismatch(run.truthDifference)) return;
   cli::Oracle& oracle = tools.oracles.of(*run.scene, own ? run.variant : joined(run.variant, run.truth));
-  Framebuffer picture;
-  picture.width = image.width;
-  picture.height = image.height;
-  picture.colour = differencePicture(oracle.expected(image), image);
+  const Framebuffer expected = oracle.expected(image);
   run.picture = fmt::format("pictures/{}.png", number);
   try {
     std::filesystem::create_directories(tools.folder / "pictures");
-    writeImage(tools.folder / run.picture, picture);
+    ImageFacts facts = factsOf(run);
+    facts.emplace_back("shows", "differences from the oracle");
+    ImageOutput(tools.folder / run.picture)
+        .write(image.width, image.height,
+               [&](std::uint32_t begin, std::uint32_t end, glm::vec3* out) {
+                 paintDifference(expected, image, begin, end, out);
+               },
+               facts);
   } catch (const std::exception& error) {
     throw PictureFailed(fmt::format("{}: could not be written: {}; --resume goes on once there is room",
                                     (tools.folder / run.picture).string(), error.what()));

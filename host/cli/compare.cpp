@@ -1,22 +1,79 @@
-// tessera compare: two .exr files, pixel by pixel, bit by bit.
+// tessera compare: two .exr files, pixel by pixel, bit by bit or within tolerances.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <cstdio>
+#include <iterator>
+#include <map>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "host/cli/commands.h"
 #include "host/cli/common.h"
 #include "host/cli/difference.h"
+#include "host/cli/table.h"
+#include "host/comparison.h"
 #include "host/files.h"
+#include "host/image-facts.h"
 #include "host/terminal.h"
 
 namespace tessera::cli {
 namespace {
 
 struct CompareOptions {
-  std::string a, b, output;
+  std::string a, b, output, json, allow;
+  std::vector<std::string> tolerances, limits;
+  std::uint64_t maxUnpacked = 0;
 };
+
+/// What is held against each other, the options read.
+struct Request {
+  Tolerances within, limits;
+  double allowed = 0;  // pixels, or per cent of them
+  bool perCent = false;
+
+  double allowedOf(std::uint64_t pixels) const {
+    return perCent ? allowed / 100 * static_cast<double>(pixels) : allowed;
+  }
+};
+
+double numberOf(const std::string& text, const std::string& option, const std::string& example) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size() || !(value >= 0) || !std::isfinite(value))
+    failUsage(fmt::format("{}: not a number from 0 up; {} would be right", option, example));
+  return value;
+}
+
+Tolerances tolerancesOf(const std::vector<std::string>& texts, const std::string& option) {
+  Tolerances result;
+  for (const std::string& text : texts) {
+    const std::string named = fmt::format("{} {}", option, text), channel = text.substr(0, text.find('='));
+    Amount* const amount = channel == "depth"    ? &result.depth
+                           : channel == "values" ? &result.attribute
+                           : channel == "colour" ? &result.colour
+                                                 : nullptr;
+    if (!amount || channel.size() == text.size())
+      failUsage(fmt::format("{}: takes depth=, values= or colour= and an amount, as in depth=1e-6 or colour=4ulp", named));
+    std::string number = text.substr(channel.size() + 1);
+    const bool steps = number.ends_with("ulp");
+    if (steps) number.resize(number.size() - 3);
+    (steps ? amount->steps : amount->absolute) = numberOf(number, named, channel + (steps ? "=4ulp" : "=1e-6"));
+  }
+  return result;
+}
+
+Request requestOf(const CompareOptions& options) {
+  Request request{tolerancesOf(options.tolerances, "--tolerance"), tolerancesOf(options.limits, "--at-most")};
+  if (options.allow.empty()) return request;
+  request.perCent = options.allow.ends_with('%');
+  request.allowed = numberOf(options.allow.substr(0, options.allow.size() - request.perCent), "--allow " + options.allow,
+                             "100 pixels or 0.1%");
+  return request;
+}
 
 /// A line for each channel that one of the two has and the other has not: it is not compared.
 std::string missingText(const CompareOptions& options, const Framebuffer& a, const Framebuffer& b) {
@@ -31,25 +88,134 @@ std::string missingText(const CompareOptions& options, const Framebuffer& a, con
   return text;
 }
 
-ExitCode runCompare(const CompareOptions& options) {
-  std::optional<ImageOutput> output;
-  if (!options.output.empty()) {
-    output.emplace(options.output);
-    checkApart({output->path()}, {options.a, options.b});
-  }
-  const Framebuffer a = readImage(options.a);
-  const Framebuffer b = readImage(options.b);
-  const Difference difference = compare(a, b);
+/// What the two depend on that is not the same, by name.
+using OtherFacts = std::map<std::string, std::array<std::optional<std::string>, 2>>;
+OtherFacts otherFacts(const ImageFacts& a, const ImageFacts& b) {
+  OtherFacts facts;
+  for (const auto& [name, text] : a) facts[name][0] = text;
+  for (const auto& [name, text] : b) facts[name][1] = text;
+  std::erase_if(facts, [](const auto& fact) { return fact.second[0] == fact.second[1]; });
+  return facts;
+}
+
+std::string factsText(const CompareOptions& options, const OtherFacts& facts) {
+  std::string text;
+  for (const auto& [name, values] : facts)
+    text += fmt::format("{}: {} in {}, {} in {}\n", name, values[0].value_or("-"), options.a, values[1].value_or("-"),
+                        options.b);
+  return text;
+}
+
+/// The three that one reading fills.
+struct Outcome {
+  Comparison bits, within, limits;
+  Framebuffer a, b;  // of the last rows, for what they hold
+  OtherFacts facts;
+};
+
+struct Verdict {
+  const char* word;
+  ExitCode code;
+};
+
+Verdict verdictOf(const Request& request, const Outcome& outcome) {
+  if (outcome.bits.difference().equal()) return {"equal", ExitCode::kDone};
+  const Difference within = outcome.within.difference();
+  const bool tooMany = static_cast<double>(within.anywhere) > request.allowedOf(within.pixels);
+  // Beyond the limit for one channel says nothing of those without a limit.
+  const Difference limits = outcome.limits.difference();
+  const auto broken = [](const Amount& amount, const Difference::Count& count) { return amount.any() && count.value_or(0); };
+  const bool tooFar = broken(request.limits.depth, limits.depth) || broken(request.limits.attribute, limits.attribute) ||
+                      broken(request.limits.colour, limits.colour);
+  if (tooMany || tooFar) return {"different", ExitCode::kDifference};
+  return {"equal within the tolerances", ExitCode::kDone};
+}
+
+/// Reads both, and writes the picture of where they differ, a band of rows at a time.
+Outcome compareFiles(const CompareOptions& options, const Request& request, std::optional<ImageOutput>& output) {
+  ImageReader a(options.a, options.maxUnpacked), b(options.b, options.maxUnpacked);
+  Outcome outcome{Comparison(), Comparison(request.within), Comparison(request.limits), {}, {},
+                  otherFacts(a.facts(), b.facts())};
+  if (a.width() != b.width() || a.height() != b.height())
+    failUsage(fmt::format("the images are {} x {} and {} x {} pixels; they should have one size", a.width(), a.height(),
+                          b.width(), b.height()));
+  const auto readRows = [&](std::uint32_t begin, std::uint32_t end) {
+    a.read(begin, end, outcome.a);
+    b.read(begin, end, outcome.b);
+    for (Comparison* comparison : {&outcome.bits, &outcome.within, &outcome.limits}) comparison->add(outcome.a, outcome.b);
+  };
   if (output) {
-    Framebuffer picture{
-        .width = a.width, .height = a.height, .depth = {}, .ids = {}, .hits = {}, .colour = differencePicture(a, b)};
-    output->write(picture);
+    ImageFacts facts = factsOf("where two images differ");
+    std::ranges::set_intersection(a.facts(), b.facts(), std::inserter(facts, facts.begin()));
+    std::ranges::sort(facts);
+    facts.erase(std::ranges::unique(facts, {}, [](const auto& fact) { return fact.first; }).begin(), facts.end());
+    output->write(
+        a.width(), a.height(),
+        [&](std::uint32_t begin, std::uint32_t end, glm::vec3* out) {
+          readRows(begin, end);
+          paintDifference(outcome.a, outcome.b, 0, end - begin, out, request.within);
+        },
+        facts);
+    return outcome;
   }
-  say(stdout, "{}{}", missingText(options, a, b), describe(difference));
-  if (!options.output.empty()) say(stdout, "wrote {}\n", options.output);
-  if (difference.equal()) return ExitCode::kDone;
-  say(stdout, "{}\n", firstPixel(difference, {options.a, a}, {options.b, b}));
-  return ExitCode::kDifference;
+  const std::uint32_t rows = std::min(a.bandRows(), b.bandRows());
+  for (std::uint32_t begin = 0; begin < a.height(); begin += rows) readRows(begin, std::min(a.height(), begin + rows));
+  return outcome;
+}
+
+std::string outcomeText(const CompareOptions& options, const Request& request, const Outcome& outcome) {
+  const Difference bits = outcome.bits.difference(), within = outcome.within.difference();
+  const Verdict verdict = verdictOf(request, outcome);
+  std::string text = missingText(options, outcome.a, outcome.b) + factsText(options, outcome.facts);
+  text += request.within.any() ? describe(bits, within) : describe(bits);
+  if (!options.allow.empty())
+    text += fmt::format("{} of {} pixels differ{}; {} may\n", grouped(within.anywhere), grouped(within.pixels),
+                        request.within.any() ? " beyond the tolerances" : "", options.allow);
+  text += fmt::format("{}\n", verdict.word);
+  if (!options.output.empty()) text += fmt::format("wrote {}\n", options.output);
+  if (verdict.code == ExitCode::kDone) return text;
+  // Of what counts: beyond the limits where nothing is beyond the tolerances.
+  const Comparison& shown = within.equal() ? outcome.limits : outcome.within;
+  return text + firstPixel(shown.difference(), {options.a, shown.firstOfA()}, {options.b, shown.firstOfB()}) + '\n';
+}
+
+std::string outcomeJson(const CompareOptions& options, const Request& request, const Outcome& outcome) {
+  using Json = nlohmann::ordered_json;
+  const auto json = [](const Difference& difference) {
+    Json result = Json::parse(differenceText(difference));
+    const auto finite = [](const std::optional<double>& value) { return value && std::isfinite(*value) ? Json(*value) : Json(); };
+    result["attribute_max"] = finite(difference.attributeMax);
+    result["attribute_rms"] = finite(difference.attributeRms);
+    result["colour_max"] = finite(difference.colourMax);
+    result["different_pixels"] = difference.anywhere;
+    result["first"] = difference.equal() ? Json() : Json{difference.firstX, difference.firstY};
+    return result;
+  };
+  const Verdict verdict = verdictOf(request, outcome);
+  Json result = {{"a", options.a}, {"b", options.b}, {"verdict", verdict.word},
+                 {"exit_code", static_cast<int>(verdict.code)}, {"bits", json(outcome.bits.difference())}};
+  result["beyond_tolerance"] = request.within.any() ? json(outcome.within.difference()) : Json();
+  result["beyond_limit"] = request.limits.any() ? json(outcome.limits.difference()) : Json();
+  result["depends_on"] = Json::object();
+  for (const auto& [name, values] : outcome.facts)
+    for (const auto& value : values) result["depends_on"][name].push_back(value ? Json(*value) : Json());
+  return result.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+ExitCode runCompare(const CompareOptions& options) {
+  const Request request = requestOf(options);
+  std::optional<ImageOutput> output;
+  std::vector<std::filesystem::path> outputs;
+  if (!options.output.empty()) outputs.push_back(output.emplace(options.output).path());
+  if (!options.json.empty()) outputs.emplace_back(options.json);
+  checkApart(outputs, {options.a, options.b});
+  std::optional<AppendedFile> rows;
+  if (!options.json.empty()) rows.emplace(options.json);
+  const Outcome outcome = compareFiles(options, request, output);
+  if (rows) rows->append(outcomeJson(options, request, outcome));
+  const bool stdoutIsTaken = options.json == "-" || (output && output->path() == "-");
+  say(stdoutIsTaken ? stderr : stdout, "{}", outcomeText(options, request, outcome));
+  return verdictOf(request, outcome).code;
 }
 
 }  // namespace
@@ -60,8 +226,37 @@ Command addCompare(CLI::App& app) {
       app.add_subcommand("compare", "compare two .exr images bit by bit in the channels that both have; exit code 5 when they differ");
   command->add_option("A", options->a, "an .exr that render wrote")->required();
   command->add_option("B", options->b, "another of the same size")->required();
-  command->add_option("-o,--output", options->output, "a picture of where they differ")->type_name("FILE.png");
-  command->footer("Example:\n  tessera compare cpu.exr gpu.exr -o difference.png");
+  command
+      ->add_option("-o,--output", options->output,
+                   "a picture of where they differ; a pipe or - needs its format, as in png:-")
+      ->type_name("FILE.png");
+  command
+      ->add_option("--tolerance", options->tolerances,
+                   "agree where depth, values or colour (of R, G, B the one that differs most) are this near: a number, "
+                   "or float32 steps as in depth=2ulp; repeat for more")
+      ->type_name("CHANNEL=AMOUNT")
+      ->allow_extra_args(false);
+  command
+      ->add_option("--allow", options->allow,
+                   "so many pixels may differ beyond the tolerances (in ids or coverage, too): 100, or a share as in 0.1%")
+      ->type_name("N|P%");
+  command
+      ->add_option("--at-most", options->limits,
+                   "but none of the pixels that --allow allows by more than this; as for --tolerance")
+      ->type_name("CHANNEL=AMOUNT")
+      ->allow_extra_args(false);
+  command->add_option("--json", options->json, "add the counts, one line of JSON, to FILE's end; - is stdout")
+      ->type_name("FILE");
+  command
+      ->add_option("--max-unpacked", options->maxUnpacked,
+                   "read a file that unpacks to this size (as in 8G); if not given 512 MiB or 1100 times the file's size, "
+                   "the larger")
+      ->type_name("SIZE")
+      ->transform(CLI::AsSizeValue(false));
+  command->footer(
+      "Examples:\n"
+      "  tessera compare cpu.exr gpu.exr -o difference.png\n"
+      "  tessera compare a.exr b.exr --tolerance colour=0.004 --allow 0.1% --at-most colour=0.1 --json -");
   return {command, [options] { return runCompare(*options); }};
 }
 

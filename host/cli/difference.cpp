@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <bit>
 
 #include "host/cli/table.h"
@@ -28,24 +29,33 @@ std::string pixelText(const NamedFrame& named, std::size_t at) {
 
 }  // namespace
 
-std::string describe(const Difference& difference) {
-  std::string text = table(
-      {{"pixels", "coverage", "id", "depth", "hits", "values", "colour"},
-       {grouped(difference.pixels), grouped(difference.coverage), grouped(difference.id), grouped(difference.depth),
-        grouped(difference.hits), grouped(difference.attribute), grouped(difference.colour)}});
-  if (difference.depth.value_or(0) != 0)
-    text += fmt::format("largest depth difference {} ({} float32 steps)\n", *difference.depthMaxAbs,
-                        *difference.depthMaxUlp);
-  if (difference.attribute.value_or(0) != 0)
-    text += fmt::format("largest difference of the values {}, rms {}\n", *difference.attributeMax,
-                        *difference.attributeRms);
-  if (difference.colour.value_or(0) != 0) text += fmt::format("PSNR of the colours {:.2f} dB\n", *difference.psnr);
-  return text + (difference.equal() ? "equal\n" : "different\n");
+std::string describe(const Difference& bits, const std::optional<Difference>& beyond) {
+  const auto counts = [](const Difference& d) {
+    return std::vector<std::string>{grouped(d.pixels), grouped(d.coverage), grouped(d.id),    grouped(d.depth),
+                                    grouped(d.hits),   grouped(d.attribute), grouped(d.colour)};
+  };
+  std::vector<std::vector<std::string>> rows{{"pixels", "coverage", "id", "depth", "hits", "values", "colour"},
+                                             counts(bits)};
+  if (beyond) {
+    rows.push_back(counts(*beyond));
+    const std::array<const char*, 3> names{"", "other bits", "beyond tolerance"};
+    for (std::size_t k = 0; k < rows.size(); ++k) rows[k].insert(rows[k].begin(), names[k]);
+  }
+  std::string text = table(rows);
+  if (bits.depth.value_or(0) != 0)
+    text += fmt::format("largest depth difference {} ({} float32 steps)\n", *bits.depthMaxAbs, *bits.depthMaxUlp);
+  if (bits.attribute.value_or(0) != 0)
+    text += fmt::format("largest difference of the values {}, rms {}\n", *bits.attributeMax, *bits.attributeRms);
+  if (bits.colour.value_or(0) != 0)
+    text += fmt::format("largest difference of the colours {}, PSNR {:.2f} dB\n", *bits.colourMax, *bits.psnr);
+  return text;
 }
 
 std::string firstPixel(const Difference& difference, const NamedFrame& a, const NamedFrame& b) {
-  const auto at =
-      static_cast<std::size_t>(difference.firstY) * a.frame.width + static_cast<std::size_t>(difference.firstX);
+  // A frame of one pixel is the one that differs.
+  const std::size_t at = a.frame.pixels() == 1 ? 0
+                                               : static_cast<std::size_t>(difference.firstY) * a.frame.width +
+                                                     static_cast<std::size_t>(difference.firstX);
   return fmt::format("first difference at pixel ({}, {}); {}; {}", difference.firstX, difference.firstY,
                      pixelText(a, at), pixelText(b, at));
 }

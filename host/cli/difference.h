@@ -1,20 +1,21 @@
 // How two images differ, in words.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "host/image.h"
 
 namespace tessera::cli {
 
-/// A table of counts by kind.
-std::string describe(const Difference& difference);
+/// A table of counts by kind, of bits and of what is beyond a tolerance, and the largest differences.
+std::string describe(const Difference& bits, const std::optional<Difference>& beyond = {});
 
 struct NamedFrame {
   const std::string& name;
   const Framebuffer& frame;
 };
-/// One line: the first differing pixel with both ids and depths (and their bits).
+/// One line, of whole frames or of that pixel alone: the first differing pixel with both ids and depths (and their bits).
 std::string firstPixel(const Difference& difference, const NamedFrame& a, const NamedFrame& b);
 
 }  // namespace tessera::cli

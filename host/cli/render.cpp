@@ -1,7 +1,9 @@
 // tessera render: one scene on one device, to images and a result row.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 
 #include "host/cli/commands.h"
@@ -12,7 +14,8 @@
 #include "host/cli/render-error.h"
 #include "host/cli/table.h"
 #include "host/cli/times.h"
-#include "host/image.h"
+#include "host/files.h"
+#include "host/image-facts.h"
 #include "host/kernel-cache.h"
 #include "host/rasterizer.h"
 #include "host/row.h"
@@ -100,7 +103,10 @@ Framebuffer renderFrames(const RenderOptions& options, Device& device, KernelCac
 ExitCode render(const RenderOptions& options) {
   const Variant variant = variantOf(options);
   std::vector<ImageOutput> images;
-  for (const auto& output : options.outputs) images.emplace_back(output);
+  std::vector<std::filesystem::path> outputs;
+  for (const auto& output : options.outputs) outputs.push_back(images.emplace_back(output).path());
+  if (!options.json.empty()) outputs.emplace_back(options.json);
+  checkApart(outputs, {options.input});
   if (!options.json.empty()) checkOutputPath(options.json, options.input);
   KernelCache kernels({.files = kernelFilesOf(options)});
   const auto device = openDevice(options);
@@ -121,10 +127,13 @@ ExitCode render(const RenderOptions& options) {
     writeRow();
     throw;
   }
-  for (auto& output : images) output.write(image, run.attributeRange);
+  const ImageFacts facts = images.empty() ? ImageFacts{} : factsOf(run);
+  for (auto& output : images) output.write(image, run.attributeRange, facts);
   writeRow();
   if (options.quiet) return ExitCode::kDone;
-  say(options.json == "-" ? stderr : stdout, "{}", summary(options, run, coveredPixels(image)));
+  const bool stdoutIsTaken =
+      options.json == "-" || std::ranges::any_of(images, [](const auto& output) { return output.path() == "-"; });
+  say(stdoutIsTaken ? stderr : stdout, "{}", summary(options, run, coveredPixels(image)));
   say(stderr, "{}", timesWarning(run));
   return ExitCode::kDone;
 }
@@ -137,7 +146,8 @@ Command addRender(CLI::App& app) {
   addInput(*command, *options);
   command
       ->add_option("-o,--output", options->outputs,
-                   "image: .png to look at, .exr with exact ids and depths; may be repeated")
+                   "image: .png to look at, .exr with exact ids and depths; a pipe or - needs its format, as in png:-; may be "
+                   "repeated")
       ->type_name("FILE")
       ->allow_extra_args(false);
   addDevice(*command, *options, false);

@@ -49,6 +49,9 @@ OIIO::ImageSpec specOf(Format format, const Header& header) {
     spec.channelformats.push_back(header.channels[c].type == "uint" ? TypeDesc::UINT32 : TypeDesc::FLOAT);
   }
   if (exr) spec.attribute("compression", "zip");
+  // Else OpenImageIO writes the time; of a type that OpenEXR has not, it writes none.
+  const std::uint8_t none = 0;
+  if (exr) spec.attribute("DateTime", TypeDesc::UINT8, &none);
   if (!exr) spec.attribute("oiio:ColorSpace", "sRGB");
   spec.attribute("oiio:UnassociatedAlpha", 1);  // as PNG has it: nothing is multiplied or divided by alpha
   for (const auto& [name, text] : header.text) spec.attribute(std::string(kPrefix) + name, text);
@@ -153,6 +156,7 @@ std::string write(const std::string& file, Format format, const Header& header, 
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const Module* tesseraImageIo() {
+  OIIO::attribute("debug", 0);  // Debian's build prints what it makes of each attribute
   static const Module module{TESSERA_MODULE_VERSION, write, openExr};
   return &module;
 }
