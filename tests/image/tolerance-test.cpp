@@ -37,15 +37,15 @@ TEST_CASE("a tolerance is an amount or float32 steps and each counts what is bey
   b.depth[0] = std::nextafter(0.5f, 1.0f);
   b.depth[1] = 0.5f + 0x1p-10f;
   CHECK(compare(a, b, {}).depth == 2);
-  CHECK(compare(a, b, {.depth = {.steps = 1}}).depth == 1);
-  CHECK(compare(a, b, {.depth = {.absolute = 0x1p-24}}).depth == 1);
-  CHECK(compare(a, b, {.depth = {.absolute = 0x1p-10}}).equal());
-  CHECK(compare(a, b, {.depth = {.absolute = 0x1p-10}}).depthMaxAbs == 0x1p-10);  // it says how far they are apart
-  CHECK(compare(a, b, {.colour = {.absolute = 1}}).depth == 2);
+  CHECK(compare(a, b, Tolerances{.depth = {0, 1}, .attribute = {}, .colour = {}}).depth == 1);
+  CHECK(compare(a, b, Tolerances{.depth = {0x1p-24, 0}, .attribute = {}, .colour = {}}).depth == 1);
+  CHECK(compare(a, b, Tolerances{.depth = {0x1p-10, 0}, .attribute = {}, .colour = {}}).equal());
+  CHECK(compare(a, b, Tolerances{.depth = {0x1p-10, 0}, .attribute = {}, .colour = {}}).depthMaxAbs == 0x1p-10);  // it says how far they are apart
+  CHECK(compare(a, b, Tolerances{.depth = {}, .attribute = {}, .colour = {1, 0}}).depth == 2);
   b = a;
   b.colour[3].z = 0.75f;
-  CHECK(compare(a, b, {.colour = {.absolute = 0.25}}).colour == 0);
-  CHECK(compare(a, b, {.colour = {.absolute = 0.2}}).colour == 1);
+  CHECK(compare(a, b, Tolerances{.depth = {}, .attribute = {}, .colour = {0.25, 0}}).colour == 0);
+  CHECK(compare(a, b, Tolerances{.depth = {}, .attribute = {}, .colour = {0.2, 0}}).colour == 1);
   CHECK(compare(a, b, {}).colourMax == 0.25);
 }
 
@@ -53,10 +53,10 @@ TEST_CASE("no tolerance takes a number for what is none") {
   Framebuffer a = grey(2), b = a;
   a.attribute = {kNan, kNan, kInfinity, std::numeric_limits<float>::max()};
   b.attribute = {kNan, 0, std::numeric_limits<float>::max(), -kInfinity};
-  CHECK(compare(a, b, {.attribute = {.absolute = 1e300, .steps = 1e9}}).attribute == 3);
+  CHECK(compare(a, b, Tolerances{.depth = {}, .attribute = {1e300, 1e9}, .colour = {}}).attribute == 3);
   b.attribute[0] = -kNan;
   CHECK(compare(a, b, {}).attribute == 4);
-  CHECK(compare(a, b, {.attribute = {.steps = 1}}).attribute == 3);
+  CHECK(compare(a, b, Tolerances{.depth = {}, .attribute = {0, 1}, .colour = {}}).attribute == 3);
 }
 
 TEST_CASE("rows that come one after the other make the whole") {
