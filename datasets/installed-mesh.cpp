@@ -4,11 +4,13 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <system_error>
 
 #include "datasets/text.h"
 #include "host/compiler-tools.h"
 #include "host/error.h"
 #include "host/files.h"
+#include "host/own-files.h"
 #include "host/subprocess.h"
 #include "host/suggest.h"
 
@@ -27,6 +29,7 @@ std::vector<std::string> installedMeshes() {
   if (!fs::is_regular_file(kArchive, error)) return {};
   const fs::path folder = defaultCacheFolder() / "meshes", list = folder / "names";
   std::string members;
+  checkOwn(list);
   const auto written = fs::last_write_time(list, error);
   if (!error && written > fs::last_write_time(kArchive, error)) {
     members = readFile(list);
@@ -36,8 +39,12 @@ std::vector<std::string> installedMeshes() {
     const ProcessResult result = runProcess({tar.string(), "-tzf", kArchive});
     if (!result.ok()) return {};
     members = result.output;
-    fs::create_directories(folder, error);
-    writeBeside(list, members);  // where it cannot be kept it is listed again
+    try {
+      makeOwnFolder(folder);
+      writeOwn(list, members);
+    } catch (const std::system_error&) {
+      // where it cannot be kept it is listed again
+    }
   }
   constexpr std::string_view kBegin = "data/meshes/", kEnd = ".off";
   std::vector<std::string> names;
@@ -65,6 +72,8 @@ fs::path installedMesh(std::string_view name) {
   if (name.empty()) failUsage(fmt::format("mesh: of what name? There are {}", fmt::join(installedMeshes(), ", ")));
   if (!plain) failUsage(fmt::format("mesh:{}: not a name; one such as mesh:refined_elephant would be right", name));
   const fs::path folder = defaultCacheFolder() / "meshes", mesh = folder / fmt::format("{}.off", name);
+  checkOwn(folder);
+  checkOwn(mesh);
   // Unpacked anew where the package is newer.
   const auto unpacked = fs::last_write_time(mesh, error);
   if (!error && unpacked > fs::last_write_time(archive, error)) return mesh;
@@ -72,10 +81,19 @@ fs::path installedMesh(std::string_view name) {
   const fs::path tar = findProgram("tar");
   if (tar.empty()) failUsage(fmt::format("mesh:{}: tar, which unpacks it, is not in PATH", name));
   // Beside its name and renamed: others may unpack it at the same time.
-  const TemporaryFolder work(folder, "unpacked");
+  const TemporaryFolder work = [&] {
+    try {
+      makeOwnFolder(folder);
+    } catch (const std::system_error& problem) {
+      fail(fmt::format("{}: cannot be made: {}; a TESSERA_CACHE that can be written would do", folder.string(),
+                       problem.code().message()));
+    }
+    return TemporaryFolder(folder, "unpacked");
+  }();
   const std::string member = fmt::format("data/meshes/{}.off", name);
   const ProcessResult result =
       runProcess({tar.string(), "-xzf", archive.string(), "-C", work.path().string(), "--touch", "--", member});
+  if (!result.ok()) checkWritten(work.path(), result.output);
   if (!result.ok()) {
     const auto names = installedMeshes();
     if (std::ranges::find(names, name) == names.end()) {
@@ -86,8 +104,12 @@ fs::path installedMesh(std::string_view name) {
     failUsage(fmt::format("mesh:{}: {} could not be taken out of {}: {}", name, member, archive.string(),
                           result.output));
   }
-  fs::rename(work.path() / member, mesh, error);
-  if (error) fail(fmt::format("{}: cannot be written: {}", mesh.string(), error.message()));
+  try {
+    makeOwn(work.path() / member);
+    replaceOwn(work.path() / member, mesh);
+  } catch (const std::system_error& problem) {
+    fail(fmt::format("{}: cannot be written: {}", mesh.string(), problem.code().message()));
+  }
   return mesh;
 }
 

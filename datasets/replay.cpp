@@ -126,7 +126,7 @@ void writeReplay(const std::filesystem::path& path, const Scene& scene) {
     for (const float value : scene.attribute) fmt::format_to(out, "{:08x}\n", std::bit_cast<std::uint32_t>(value));
   }
   fmt::format_to(out, "end\n");
-  if (!writeBeside(path, {text.data(), text.size()})) fail(fmt::format("{}: cannot be written", path.string()));
+  writeWhole(path, {text.data(), text.size()});
 }
 
 Scene readReplay(const std::filesystem::path& path) {

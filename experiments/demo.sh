@@ -24,8 +24,10 @@ if [[ ! -f build/data/$mesh ]]; then
   archive=$(dpkg-query -L libcgal-demo 2>/dev/null | grep '/data\.tar\.gz$' | head -n 1) || true
   [[ $archive && -f $archive ]] || { say "Debian's libcgal-demo is not installed: apt-get install libcgal-demo"; exit 1; }
   mkdir -p build/data
-  tar -xzOf "$archive" --wildcards "*/$mesh" >"build/data/$mesh.tmp"
-  mv "build/data/$mesh.tmp" "build/data/$mesh"
+  new=$(mktemp -d build/data/unpacked.XXXXXX)
+  trap 'rm -rf "$new"' EXIT
+  tar -xzOf "$archive" --wildcards "*/$mesh" >"$new/$mesh"
+  mv "$new/$mesh" "build/data/$mesh"
 fi
 sha256sum --status -c <<<"$meshHash  build/data/$mesh" ||
   say "note: build/data/$mesh is not the one of Debian 12, so its figures are others"
@@ -37,12 +39,12 @@ demo() {
   for device in cpu vulkan; do
     say "$1 on $device"
     "$tessera" render "$input" --size "$size" --device "$device" --set shade=smooth \
-      -o "$name-$device.png" -o "$name-$device.exr" --json "$name-$device.json" >/dev/null
+      -o "$name-$device.png" -o "$name-$device.exr" --json "$name.jsonl" >/dev/null
   done
   "$tessera" compare "$name-cpu.exr" "$name-vulkan.exr" -o "$name-difference.png" >"$name-compare.txt" ||
     { cat "$name-compare.txt"; return 5; }
   "$tessera" parity "$input" --size "$size" --device cpu --device vulkan --set shade=smooth --repeat 3 \
-    --json "$name-parity.jsonl" --replay "$name-difference.replay"
+    --json "$name.jsonl" --replay "$name-difference.replay"
   echo
 }
 demo elephant "build/data/$mesh"

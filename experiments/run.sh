@@ -56,7 +56,8 @@ for name in "${names[@]}"; do
   if $keep; then
     [[ -f $folder/report/figures/figure.svg ]] || die "$name: its rows give no figure.svg; [plot] in its sweep.toml chooses it"
     for pair in rows.jsonl:results.jsonl report/figures/figure.svg:figure.svg; do
-      cp "$folder/${pair%:*}" "$own/${pair#*:}.tmp" && mv "$own/${pair#*:}.tmp" "$own/${pair#*:}"
+      new=$(mktemp "$own/${pair#*:}.XXXXXX")
+      cp "$folder/${pair%:*}" "$new" && chmod 644 "$new" && mv "$new" "$own/${pair#*:}"
     done
   fi
 done

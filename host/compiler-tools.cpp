@@ -10,6 +10,7 @@
 
 #include "host/error.h"
 #include "host/files.h"
+#include "host/own-files.h"
 #include "host/home.h"
 #include "host/spirv.h"
 #include "host/subprocess.h"
@@ -60,11 +61,13 @@ void probe(uint3 group : SV_GroupID)
 
 /// Throws unless this slangc will do. Only a pass is remembered: a missing optimiser may be put beside it at any time.
 std::string checkSlangc(const fs::path& slangc) {
-  const TemporaryFolder work(fs::temp_directory_path(), "tessera-slangc");
+  const TemporaryFolder work(temporaryRoot(), "tessera-slangc");
   const fs::path source = work.path() / "probe.slang", module = work.path() / "probe.spv";
-  std::ofstream(source) << kProbeModule;
+  writeInto(source, kProbeModule);
   const ProcessResult result = runProcess({slangc.string(), source.string(), "-target", "spirv", "-O1", "-fp-mode",
-                                           "precise", "-entry", "probe", "-stage", "compute", "-o", module.string()});
+                                           "precise", "-entry", "probe", "-stage", "compute", "-o", module.string()},
+                                         work.path());
+  if (!result.ok() || !fs::exists(module)) checkWritten(work.path(), result.output);
   if (!result.ok() || !fs::exists(module)) fail("cannot compile a small kernel to SPIR-V: " + firstLine(result.output));
   if (const std::vector<std::string> violations = checkSpirv(module); !violations.empty())
     fail("its SPIR-V is not exact: " + violations[0]);
@@ -89,6 +92,8 @@ const std::string& processorIdentity() {
 }  // namespace
 
 ToolMemory::ToolMemory(const fs::path& folder) : file_(folder / "tools.json") {
+  checkOwn(folder);
+  checkOwn(file_);
   std::ifstream file(file_);
   const nlohmann::json stored = nlohmann::json::parse(file, nullptr, false);
   if (!stored.is_object()) return;  // none yet, or broken: ask again
@@ -102,7 +107,12 @@ std::string ToolMemory::recall(const std::string& question, const fs::path& prog
   const std::lock_guard lock(mutex_);
   if (const auto known = answers_.find(key); known != answers_.end()) return known->second;
   const std::string answer = answers_[key] = ask();
-  writeBeside(file_, nlohmann::json(answers_).dump(1));
+  try {
+    makeOwnFolder(file_.parent_path());
+    writeOwn(file_, nlohmann::json(answers_).dump(1));
+  } catch (const std::system_error&) {
+    // it is asked again next time; where nothing can be kept, the kernels say so
+  }
   return answer;
 }
 
@@ -111,6 +121,8 @@ ToolInfo chooseSlangc(ToolMemory& memory, const fs::path& pinned) {
     try {
       memory.recall("check", path, [&] { return checkSlangc(path); });
       return "";
+    } catch (const WriteError&) {
+      throw;
     } catch (const Error& error) {
       return error.what();
     }

@@ -55,6 +55,8 @@ Emitted emitKernel(KernelCache& cache, const KernelRequest& request, const EmitT
     emitted.bytes = target.name == "spirv" ? readText(cache.get(request).binary)  // the very module that runs
                                            : std::move(written.text);
     emitted.reflection = std::move(written.reflection);
+  } catch (const WriteError&) {
+    throw;
   } catch (const Error& error) {
     emitted.complaint = error.what();
   }

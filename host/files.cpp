@@ -1,48 +1,62 @@
 #include "host/files.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
-#include <atomic>
+#include <cerrno>
 #include <cstdlib>
-#include <fstream>
 #include <system_error>
 
 #include "host/error.h"
+#include "host/output-place.h"
 #include "host/temporary.h"
 
 namespace tessera {
 
 namespace fs = std::filesystem;
 
-std::string uniqueName(std::string_view stem) {
-  static std::atomic<unsigned> counter{0};
-  return fmt::format("{}.{}-{}.tmp", stem, getpid(), counter++);
+namespace {
+
+[[noreturn]] void failFolder(const fs::path& folder, const std::string& cause) {
+  throw WriteError(fmt::format(
+      "{}: cannot be written: {}; room there, or another folder (TMPDIR for temporary files, TESSERA_CACHE for compiled "
+      "kernels), would do",
+      folder.string(), cause));
 }
 
-bool writeBeside(const fs::path& path, std::string_view text) {
-  std::error_code error;
-  fs::create_directories(path.parent_path(), error);
-  const fs::path beside = path.parent_path() / uniqueName(path.filename().string());
-  std::ofstream file(beside, std::ios::binary);
-  file.write(text.data(), static_cast<std::streamsize>(text.size()));
-  file.close();
-  if (file) fs::rename(beside, path, error);
-  if (!file || error) {
-    fs::remove(beside, error);
-    return false;
-  }
-  return true;
+std::string faultOf(const fs::path& folder) try {
+  Temporary file(folder, "try", Temporary::kFile);
+  const int error = writeBytes(file.descriptor(), std::string(1 << 18, 'x'));
+  return error == 0 ? "" : causeOf(error);
+} catch (const std::system_error& error) {
+  return error.code().message();
 }
+
+}  // namespace
 
 fs::path temporaryRoot() {
   const char* const named = std::getenv("TMPDIR");
   const fs::path root = named != nullptr && *named != '\0' ? named : "/tmp";
-  std::error_code error;
-  if (!fs::is_directory(root, error))
-    fail(fmt::format("TMPDIR={}: {}; a folder with room in it would do", root.string(),
-                     error ? error.message() : "is not a folder"));
+  struct stat about {};
+  if (stat(root.c_str(), &about) != 0) failFolder(root, causeOf(errno));
+  if (!S_ISDIR(about.st_mode)) failFolder(root, causeOf(ENOTDIR));
   return root;
+}
+
+void writeInto(const fs::path& path, std::string_view text) {
+  const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, 0644);
+  if (file < 0) failFolder(path.parent_path(), causeOf(errno));
+  const int error = writeBytes(file, text);
+  close(file);
+  if (error != 0) failFolder(path.parent_path(), causeOf(error));
+}
+
+void checkWritten(const fs::path& folder, std::string_view said) {
+  for (const int error : {ENOSPC, EDQUOT, EROFS, EFBIG, EIO})
+    if (said.find(causeOf(error)) != std::string_view::npos) failFolder(folder, causeOf(error));
+  if (const std::string cause = faultOf(folder); !cause.empty()) failFolder(folder, cause);
 }
 
 TemporaryFolder::TemporaryFolder(const fs::path& parent, std::string_view stem) try {
@@ -50,7 +64,7 @@ TemporaryFolder::TemporaryFolder(const fs::path& parent, std::string_view stem) 
   clearTemporaries(parent, stem);
   folder_ = std::make_unique<Temporary>(parent, stem, Temporary::kFolder);
 } catch (const std::system_error& error) {
-  fail(fmt::format("{}: no temporary folder can be made in it: {}", parent.string(), error.code().message()));
+  failFolder(parent, error.code().message());
 }
 
 TemporaryFolder::~TemporaryFolder() = default;

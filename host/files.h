@@ -9,13 +9,9 @@
 #include <string_view>
 #include <vector>
 
+#include "host/error.h"
+
 namespace tessera {
-
-/// A name that no other thread or process uses: `stem` with this process's number, a counter and ".tmp".
-std::string uniqueName(std::string_view stem);
-
-/// Writes `path` beside its name and renames it. False if that cannot be done; nothing is left behind then.
-bool writeBeside(const std::filesystem::path& path, std::string_view text);
 
 /// An output that appears whole or not at all. A file, through symbolic links the one that they lead to, is written
 /// beside and renamed; it keeps its mode. A device, a pipe, /dev/fd/N or "-" (stdout) is written to, from a file in the
@@ -41,6 +37,15 @@ class OutputFile {
 /// An output whose bytes are text.
 void writeWhole(const std::filesystem::path& target, std::string_view text);
 
+/// The same for a file that must not be there yet: false, and nothing is changed, where one is.
+bool writeNew(const std::filesystem::path& target, std::string_view text);
+
+/// Throws kUsage where writeWhole() could write nothing. It opens no pipe.
+void checkWhole(const std::filesystem::path& target);
+
+/// Throws kUsage if the folder, or the nearest one above it that is there, takes no new file. It makes no folder.
+void checkOutputFolder(const std::filesystem::path& folder);
+
 /// A file that lines are added to; a new one where there is none. Devices, pipes and "-" as for OutputFile.
 class AppendedFile {
  public:
@@ -58,11 +63,19 @@ class AppendedFile {
 
 void appendLine(const std::filesystem::path& target, std::string_view line);
 
-/// Throws kUsage where two outputs are one file, under whatever names, or an output is an input. Devices may be named
-/// twice.
+/// Whether it is this process's stdout, under whatever name.
+bool isStdout(const std::filesystem::path& target);
+
+/// Throws kUsage where two outputs are one file, under whatever names, or one is an input. Devices may be named twice.
 void checkApart(const std::vector<std::filesystem::path>& outputs, const std::vector<std::filesystem::path>& inputs);
 
-/// A new folder, removed with all that is in it at the end. Throws kFailure with folder and cause if it cannot be made.
+/// A folder that others write into for us, such as compilers, cannot be written: the fault is none of theirs.
+class WriteError : public Error {
+ public:
+  explicit WriteError(const std::string& line) : Error(ExitCode::kFailure, line) {}
+};
+
+/// A new folder, removed with all that is in it at the end. Throws WriteError with folder and cause if it cannot be made.
 class TemporaryFolder {
  public:
   TemporaryFolder(const std::filesystem::path& parent, std::string_view stem);
@@ -74,7 +87,14 @@ class TemporaryFolder {
   std::unique_ptr<class Temporary> folder_;
 };
 
-/// $TMPDIR or /tmp. Throws kFailure, with the name and what would do, if it is no folder.
+/// $TMPDIR or /tmp. Throws WriteError, with what would do, if it is no folder.
 std::filesystem::path temporaryRoot();
+
+/// Writes a new file into a temporary folder. Throws WriteError.
+void writeInto(const std::filesystem::path& path, std::string_view text);
+
+/// For a program that failed and whose files go into `folder`: throws WriteError if the folder is why, by what the
+/// program said or by trying.
+void checkWritten(const std::filesystem::path& folder, std::string_view said);
 
 }  // namespace tessera

@@ -12,11 +12,13 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <sstream>
+#include <system_error>
 #include <thread>
 
 #include "host/compiler-tools.h"
 #include "host/error.h"
 #include "host/files.h"
+#include "host/own-files.h"
 #include "host/home.h"
 #include "host/reflection.h"
 #include "host/slang-compiler.h"
@@ -63,8 +65,7 @@ std::string entryText(const KernelInterface& interface, const std::string& binar
       .dump(1);
 }
 
-/// The interface of a whole entry; nothing where a file is missing, cut short or changed.
-std::optional<KernelInterface> readEntry(const fs::path& entry, Route route) try {
+std::optional<KernelInterface> readWhole(const fs::path& entry, Route route) try {
   const nlohmann::json stored = nlohmann::json::parse(readText(entry / kInterfaceFile));
   if (stored.at("binaryHash") != sha256(readText(entry / binaryName(route)))) return {};
   if (stored.at("interfaceHash") != sha256(stored.at("interface").dump())) return {};
@@ -73,6 +74,14 @@ std::optional<KernelInterface> readEntry(const fs::path& entry, Route route) try
   return {};
 } catch (const Error&) {
   return {};
+}
+
+/// The interface of a whole entry; nothing where a file is missing, cut short or changed.
+std::optional<KernelInterface> readEntry(const fs::path& entry, Route route) {
+  // They run as this process does: whoever can write them is it.
+  for (const fs::path& path : {entry.parent_path(), entry, entry / kInterfaceFile, entry / binaryName(route)})
+    checkOwn(path);
+  return readWhole(entry, route);
 }
 
 }  // namespace
@@ -165,20 +174,21 @@ struct KernelCache::State {
   /// Compiles beside the entry and renames the files into it, the interface last. Two that do so at once rename the
   /// same bytes; should a compiler be less deterministic than that, the hashes tell and the entry is built again.
   KernelInterface fill(const KernelRequest& request, const CompileSettings& settings,
-                       const std::map<fs::path, std::string>& sources, const fs::path& entry) {
-    std::error_code error;
-    fs::create_directories(entry, error);
-    if (error)
-      fail(fmt::format("kernel cache: {}: {}; set TESSERA_CACHE to a folder that can be written", entry.string(),
-                       error.message()));
-    const TemporaryFolder work(entry.parent_path(), entry.filename().string());
+                       const std::map<fs::path, std::string>& sources, const fs::path& entry) try {
+    if (std::error_code ignored; fs::exists(entry, ignored) && !fs::is_directory(entry, ignored))
+      fs::remove(entry, ignored);
+    makeOwnFolder(entry);
+    const TemporaryFolder work(options.folder, "work");
     const KernelInterface interface = compileKernel(request, settings, sources, work.path());
     const fs::path made = work.path() / binaryName(request.route), binary = entry / binaryName(request.route);
     const std::string text = entryText(interface, readText(made));
-    fs::rename(made, binary, error);
-    if (error || !writeBeside(entry / kInterfaceFile, text))
-      fail(fmt::format("kernel cache: {}: cannot be written", entry.string()));
+    makeOwn(made);
+    replaceOwn(made, binary);
+    writeOwn(entry / kInterfaceFile, text);
     return interface;
+  } catch (const std::system_error& error) {
+    fail(fmt::format("kernel cache: {}: {}; a TESSERA_CACHE that can be written and has room would do", entry.string(),
+                     error.code().message()));
   }
 };
 
@@ -193,6 +203,7 @@ KernelCache::KernelCache(Options options) {
     failUsage(fmt::format(
         "{}: no such folder; the kernels' Slang sources are looked for there: set TESSERA_SLANG_SOURCES to them",
         options.slangSources.string()));
+  checkOwn(options.folder);
   state_ = std::make_unique<State>(std::move(options));
 }
 
@@ -241,10 +252,16 @@ std::vector<CompiledKernel> KernelCache::getAll(const std::vector<KernelRequest>
       }
     }
   };
-  std::vector<std::thread> workers(
-      std::min<std::size_t>(requests.size(), std::max(1u, std::thread::hardware_concurrency())));
-  for (std::thread& worker : workers) worker = std::thread(work);
-  for (std::thread& worker : workers) worker.join();
+  {
+    std::vector<std::jthread> others;
+    const std::size_t most = std::min<std::size_t>(requests.size(), std::thread::hardware_concurrency());
+    try {
+      while (others.size() + 1 < most) others.emplace_back(work);
+    } catch (const std::system_error&) {
+      // with fewer threads it takes longer
+    }
+    work();
+  }
   if (failure) std::rethrow_exception(failure);
   return kernels;
 }

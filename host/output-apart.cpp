@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <map>
 
@@ -24,6 +25,8 @@ std::string identityOf(const OutputPlace& place) {
 
 }  // namespace
 
+bool isStdout(const fs::path& target) { return outputPlace(target).descriptor == STDOUT_FILENO; }
+
 void checkApart(const std::vector<fs::path>& outputs, const std::vector<fs::path>& inputs) {
   std::map<std::string, fs::path> read, written;
   for (const fs::path& input : inputs) {
@@ -32,7 +35,8 @@ void checkApart(const std::vector<fs::path>& outputs, const std::vector<fs::path
       read.emplace(fmt::format("{} {}", about.st_dev, about.st_ino), input);
   }
   for (const fs::path& output : outputs) {
-    const std::string identity = identityOf(outputPlace(output));
+    const OutputPlace place = outputPlace(output);
+    const std::string identity = identityOf(place);
     if (identity.empty()) continue;
     if (const auto found = read.find(identity); found != read.end())
       failUsage(found->second == output

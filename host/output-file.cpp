@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cerrno>
+#include <cstdio>
 #include <system_error>
 
 #include "host/error.h"
@@ -44,6 +45,7 @@ struct OutputFile::State {
   std::unique_ptr<Temporary> temporary;
 
   explicit State(const fs::path& target) : place(outputPlace(target)) {
+    if (place.isFile()) checkBeside(place);
     // Asking for permissions misses read-only and special file systems; making a file does not.
     clearTemporaries(folder(), stem());
     makeTemporary(place.isFile() ? ExitCode::kUsage : ExitCode::kFailure);
@@ -120,6 +122,39 @@ void OutputFile::commit(std::optional<std::uintmax_t> bytes) {
   else
     state_->copyToStream(made.number);
   state_->temporary.reset();
+}
+
+void checkWhole(const fs::path& target) {
+  if (outputPlace(target).isFile()) OutputFile{target};
+}
+
+bool writeNew(const fs::path& target, std::string_view text) try {
+  Temporary made(folderOf(target), target.filename().native(), Temporary::kFile);
+  writeAll(made.descriptor(), text, target);
+  if (!synced(made.descriptor())) failed(target, causeOf(errno));
+  if (renameat2(AT_FDCWD, made.path().c_str(), AT_FDCWD, target.c_str(), RENAME_NOREPLACE) != 0) {
+    if (errno == EEXIST) return false;
+    failed(target, causeOf(errno));
+  }
+  made.renamed();
+  return true;
+} catch (const std::system_error& error) {
+  failed(target, error.code().message());
+}
+
+void checkOutputFolder(const fs::path& folder) {
+  fs::path there = folder.empty() ? fs::path(".") : folder;
+  struct stat about {};
+  while (stat(there.c_str(), &about) != 0) {
+    if (errno != ENOENT) failUsage(fmt::format("{}: {}", folder.string(), causeOf(errno)));
+    there = there.has_parent_path() && there.parent_path() != there ? there.parent_path() : fs::path(".");
+  }
+  if (!S_ISDIR(about.st_mode)) failUsage(fmt::format("{}: {} is no folder", folder.string(), there.string()));
+  try {
+    Temporary(there, "try", Temporary::kFile);
+  } catch (const std::system_error& error) {
+    failUsage(fmt::format("{}: {} cannot be written: {}", folder.string(), there.string(), error.code().message()));
+  }
 }
 
 void writeWhole(const fs::path& target, std::string_view text) {

@@ -47,22 +47,6 @@ void checkDescriptor(const OutputPlace& place) {
   if (place.there && S_ISDIR(place.there->st_mode)) refuse(place.name, "is a folder; a file would do");
 }
 
-void checkFolder(const OutputPlace& place) {
-  const fs::path folder = place.file.has_parent_path() ? place.file.parent_path() : fs::path(".");
-  struct stat about {};
-  if (stat(folder.c_str(), &about) != 0)
-    refuse(place.name, errno == ENOENT ? fmt::format("the folder {} does not exist", folder.string())
-                                       : fmt::format("{}: {}", folder.string(), causeOf(errno)));
-  if (!S_ISDIR(about.st_mode)) refuse(place.name, fmt::format("{} is not a folder", folder.string()));
-  if (faccessat(AT_FDCWD, folder.c_str(), W_OK | X_OK, AT_EACCESS) != 0)
-    refuse(place.name, fmt::format("the folder {} cannot be written: {}; a file is written beside its name first",
-                                   folder.string(), causeOf(errno)));
-  if (!place.there) return;
-  const bool othersMayNot = (about.st_mode & S_ISVTX) != 0 && geteuid() != 0 && about.st_uid != geteuid();
-  if (othersMayNot && place.there->st_uid != geteuid())
-    refuse(place.name, fmt::format("belongs to another user, and {} lets nobody else replace it", folder.string()));
-}
-
 /// A file that is a mount of its own (a container's) cannot be renamed over.
 bool isMount(const fs::path& file) {
   struct statx about {};
@@ -105,10 +89,25 @@ OutputPlace outputPlace(const fs::path& target) {
   if (place.there && S_ISSOCK(place.there->st_mode)) refuse(target, "is a socket; a file or a pipe would do");
   if (place.there && faccessat(AT_FDCWD, place.file.c_str(), W_OK, AT_EACCESS) != 0)
     refuse(target, fmt::format("cannot be written: {}", causeOf(errno)));
-  if (!place.isFile()) return place;
-  checkFolder(place);
-  if (place.there && isMount(place.file)) refuse(target, "is mounted there by itself; a name in a folder would do");
+  if (place.isFile() && !place.there) checkBeside(place);
   return place;
+}
+
+void checkBeside(const OutputPlace& place) {
+  const fs::path folder = place.file.has_parent_path() ? place.file.parent_path() : fs::path(".");
+  struct stat about {};
+  if (stat(folder.c_str(), &about) != 0)
+    refuse(place.name, errno == ENOENT ? fmt::format("the folder {} does not exist", folder.string())
+                                       : fmt::format("{}: {}", folder.string(), causeOf(errno)));
+  if (!S_ISDIR(about.st_mode)) refuse(place.name, fmt::format("{} is not a folder", folder.string()));
+  if (faccessat(AT_FDCWD, folder.c_str(), W_OK | X_OK, AT_EACCESS) != 0)
+    refuse(place.name, fmt::format("the folder {} cannot be written: {}; a file is written beside its name first",
+                                   folder.string(), causeOf(errno)));
+  if (!place.there) return;
+  if (isMount(place.file)) refuse(place.name, "is mounted there by itself; a name in a folder would do");
+  const bool othersMayNot = (about.st_mode & S_ISVTX) != 0 && geteuid() != 0 && about.st_uid != geteuid();
+  if (othersMayNot && place.there->st_uid != geteuid())
+    refuse(place.name, fmt::format("belongs to another user, and {} lets nobody else replace it", folder.string()));
 }
 
 int openStream(const OutputPlace& place) {
@@ -134,7 +133,7 @@ int openStream(const OutputPlace& place) {
   }
 }
 
-void writeAll(int descriptor, std::string_view bytes, const fs::path& name) {
+int writeBytes(int descriptor, std::string_view bytes) {
   while (!bytes.empty()) {
     const ssize_t put = write(descriptor, bytes.data(), bytes.size());
     if (put > 0) {
@@ -143,10 +142,15 @@ void writeAll(int descriptor, std::string_view bytes, const fs::path& name) {
       pollfd ready{descriptor, POLLOUT, 0};
       poll(&ready, 1, -1);
     } else if (put == 0 || errno != EINTR) {
-      fail(fmt::format("{}: could not be written: {}", name == "-" ? "stdout" : name.string(),
-                       put == 0 ? "it takes no more" : causeOf(errno)));
+      return put == 0 ? ENOSPC : errno;
     }
   }
+  return 0;
+}
+
+void writeAll(int descriptor, std::string_view bytes, const fs::path& name) {
+  if (const int error = writeBytes(descriptor, bytes); error != 0)
+    fail(fmt::format("{}: could not be written: {}", name == "-" ? "stdout" : name.string(), causeOf(error)));
 }
 
 }  // namespace tessera

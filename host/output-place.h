@@ -24,8 +24,14 @@ struct OutputPlace {
 /// Throws kUsage, in one line with the cause, where nothing can be written.
 OutputPlace outputPlace(const std::filesystem::path& target);
 
+/// The same where a file cannot be renamed over what is there, or none can be made: its folder has to be writable, too.
+void checkBeside(const OutputPlace& place);
+
 /// Opens a device, pipe or descriptor to write to. A pipe has ten seconds to find its reader. Throws kUsage.
 int openStream(const OutputPlace& place);
+
+/// 0, or the error that left some of the bytes unwritten.
+int writeBytes(int descriptor, std::string_view bytes);
 
 /// Throws kFailure, with the name and the cause, unless all is written.
 void writeAll(int descriptor, std::string_view bytes, const std::filesystem::path& name);

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
 #include <sstream>
 
 #include "host/error.h"
@@ -68,7 +67,7 @@ std::string describe(const KernelRequest& request) {
 }
 
 void runCompiler(const KernelRequest& request, const std::vector<std::string>& arguments, const fs::path& made) {
-  const ProcessResult result = runProcess(arguments);
+  const ProcessResult result = runProcess(arguments, made.parent_path());
   if (!result.ok() || !fs::exists(made))
     throw Error(request.file.empty() ? ExitCode::kFailure : ExitCode::kUsage,  // a user's kernel is input
                 fmt::format("{}: {}: {}", describe(request), fs::path(arguments[0]).filename().string(),
@@ -107,8 +106,8 @@ void checkDependencies(const std::string& rule, const std::map<fs::path, std::st
 std::vector<std::string> slangCommand(const KernelRequest& request, const ToolInfo& slangc,
                                       const fs::path& slangSources, const std::vector<std::string>& flags,
                                       const fs::path& work, const fs::path& made) {
-  std::ofstream(work / "settings.slang") << request.modules.settings;
-  std::ofstream(work / "variant.slang") << request.modules.variant;
+  writeInto(work / "settings.slang", request.modules.settings);
+  writeInto(work / "variant.slang", request.modules.variant);
   const fs::path source = request.file.empty() ? slangSources / request.source : request.file;
   std::vector<std::string> arguments{slangc.path.string(), source.string(), "-I", work.string(), "-I",
                                      slangSources.string()};
@@ -127,7 +126,7 @@ std::string wholeCpp(const fs::path& slangSources, const std::string& generated)
 void compileCpp(const KernelRequest& request, const CompileSettings& settings, const std::string& generated,
                 const fs::path& work) {
   const fs::path source = work / "kernel.cpp", made = work / binaryName(request.route);
-  std::ofstream(source) << (settings.boundsChecks ? kBoundsChecks : "") << wholeCpp(settings.slangSources, generated);
+  writeInto(source, (settings.boundsChecks ? kBoundsChecks : "") + wholeCpp(settings.slangSources, generated));
   std::vector<std::string> arguments{settings.cxx.path.string()};
   append(arguments, cxxBaseFlags());
   append(arguments, settings.cxxFlags);
@@ -150,7 +149,7 @@ std::vector<std::uint32_t> compileGlsl(const KernelRequest& request, const Compi
 
 /// A user's GLSL, as it is: what it does not call `precise` is the user's choice.
 KernelInterface compileUsersGlsl(const KernelRequest& request, const CompileSettings& settings, const fs::path& work) {
-  std::ofstream(work / "settings.glsl") << glslSettings(request.modules.settings);
+  writeInto(work / "settings.glsl", glslSettings(request.modules.settings));
   return readSpirvInterface(compileGlsl(request, settings, request.file, work));
 }
 
@@ -216,8 +215,11 @@ KernelInterface compileKernel(const KernelRequest& request, const CompileSetting
   try {
     return languageOf(request) == Language::kGlsl ? compileUsersGlsl(request, settings, work)
                                                   : compileSlang(request, settings, sources, work);
+  } catch (const WriteError&) {
+    throw;
   } catch (const Error& error) {
     const std::string what = error.what(), name = describe(request);
+    checkWritten(work, what);
     const ExitCode code = request.file.empty() ? error.code() : ExitCode::kUsage;
     throw Error(code, what.rfind(name, 0) == 0 ? what : name + ": " + what);
   }
@@ -225,7 +227,7 @@ KernelInterface compileKernel(const KernelRequest& request, const CompileSetting
 
 Written writtenBySlang(const KernelRequest& request, const std::string& target, const ToolInfo& slangc,
                            const fs::path& slangSources) {
-  const TemporaryFolder work(fs::temp_directory_path(), "tessera-emit");
+  const TemporaryFolder work(temporaryRoot(), "tessera-emit");
   const fs::path made = work.path() / "made", reflection = work.path() / "reflection.json";
   const bool cpp = request.route == Route::kCpp;
   std::vector<std::string> flags{"-target", target, "-fp-mode", "precise", "-line-directive-mode", "none"};
@@ -236,8 +238,15 @@ Written writtenBySlang(const KernelRequest& request, const std::string& target, 
   for (const char* const unmangled : {"wgsl", "glsl", "hlsl", "metal"})
     if (target == unmangled) flags.push_back("-no-mangle");
   flags.insert(flags.end(), {"-reflection-json", reflection.string()});
-  runCompiler(request, slangCommand(request, slangc, slangSources, flags, work.path(), made), made);
-  return {cpp ? wholeCpp(slangSources, readText(made)) : readText(made), readText(reflection)};
+  try {
+    runCompiler(request, slangCommand(request, slangc, slangSources, flags, work.path(), made), made);
+    return {cpp ? wholeCpp(slangSources, readText(made)) : readText(made), readText(reflection)};
+  } catch (const WriteError&) {
+    throw;
+  } catch (const Error& error) {
+    checkWritten(work.path(), error.what());
+    throw;
+  }
 }
 
 }  // namespace tessera

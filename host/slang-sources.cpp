@@ -61,6 +61,8 @@ std::vector<fs::path> namedBy(std::string_view line) {
 }  // namespace
 
 std::string readText(const fs::path& path) {
+  std::error_code error;
+  if (fs::is_directory(path, error)) fail(fmt::format("{}: is a folder, not a file", path.string()));
   std::ifstream file(path, std::ios::binary | std::ios::ate);
   if (!file) fail(fmt::format("{}: cannot be read: {}", path.string(), std::strerror(errno)));
   std::string text(static_cast<std::size_t>(std::max<std::streamoff>(file.tellg(), 0)), '\0');

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "host/error.h"
+#include "host/files.h"
 
 namespace tessera {
 namespace {
@@ -44,9 +45,7 @@ std::vector<std::uint32_t> readSpirv(const std::filesystem::path& module) {
 }
 
 void writeSpirv(const std::filesystem::path& module, const std::vector<std::uint32_t>& words) {
-  std::ofstream file(module, std::ios::binary);
-  file.write(reinterpret_cast<const char*>(words.data()), static_cast<std::streamsize>(words.size() * 4));
-  if (!file.flush()) fail(fmt::format("{}: cannot be written", module.string()));
+  writeInto(module, {reinterpret_cast<const char*>(words.data()), words.size() * 4});
 }
 
 }  // namespace tessera

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <csignal>
 #include <cstdlib>
 #include <cstring>
 
@@ -18,19 +19,23 @@ namespace tessera {
 namespace {
 
 /// The environment of this process, with messages in English: their first error line is what we quote.
-std::vector<char*> childEnvironment() {
+std::vector<char*> childEnvironment(std::string& temporary) {
   static char locale[] = "LC_ALL=C";
   std::vector<char*> variables;
+  const auto stays = [&](const char* variable) {
+    return std::strncmp(variable, "LC_ALL=", 7) != 0 && (temporary.empty() || std::strncmp(variable, "TMPDIR=", 7) != 0);
+  };
   for (char** variable = environ; *variable != nullptr; ++variable)
-    if (std::strncmp(*variable, "LC_ALL=", 7) != 0) variables.push_back(*variable);
+    if (stays(*variable)) variables.push_back(*variable);
   variables.push_back(locale);
+  if (!temporary.empty()) variables.push_back(temporary.data());
   variables.push_back(nullptr);
   return variables;
 }
 
 }  // namespace
 
-ProcessResult runProcess(const std::vector<std::string>& arguments) {
+ProcessResult runProcess(const std::vector<std::string>& arguments, const std::filesystem::path& temporary) {
   // Close-on-exec, or a child started by another thread would hold our pipe open.
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) fail(fmt::format("{}: no pipe to it: {}", arguments[0], std::strerror(errno)));
@@ -45,8 +50,17 @@ ProcessResult runProcess(const std::vector<std::string>& arguments) {
   for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);
   pid_t child = 0;
-  const int error = posix_spawn(&child, argv[0], &actions, nullptr, argv.data(), childEnvironment().data());
+  std::string variable = temporary.empty() ? "" : "TMPDIR=" + temporary.string();
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  sigset_t defaults;  // SIGPIPE is ignored here: see host/cli/main.cpp
+  sigemptyset(&defaults);
+  sigaddset(&defaults, SIGPIPE);
+  posix_spawnattr_setsigdefault(&attributes, &defaults);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
+  const int error = posix_spawn(&child, argv[0], &actions, &attributes, argv.data(), childEnvironment(variable).data());
   posix_spawn_file_actions_destroy(&actions);
+  posix_spawnattr_destroy(&attributes);
   close(ends[1]);
   if (error != 0) {
     close(ends[0]);

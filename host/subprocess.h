@@ -14,8 +14,9 @@ struct ProcessResult {
   bool ok() const { return status == 0; }
 };
 
-/// Runs `arguments[0]` (a path) and waits for it. Throws kFailure only if it cannot be started.
-ProcessResult runProcess(const std::vector<std::string>& arguments);
+/// Runs `arguments[0]` (a path) and waits for it; its temporary files go into `temporary`, if that is said. Throws
+/// kFailure only if it cannot be started.
+ProcessResult runProcess(const std::vector<std::string>& arguments, const std::filesystem::path& temporary = {});
 
 /// Full path of a program: `name` itself where it holds a slash, else the first executable of that name in PATH. Empty
 /// if there is none.

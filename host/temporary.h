@@ -18,6 +18,7 @@ class Temporary {
   ~Temporary();
   Temporary(const Temporary&) = delete;
   const std::filesystem::path& path() const { return path_; }
+  int descriptor() const { return lock_; }  ///< of a file: open for writing
   /// It has been renamed, so that nothing is left to remove.
   void renamed() { path_.clear(); }
 

@@ -4,6 +4,7 @@ import datetime
 import json
 import os
 import sys
+import tempfile
 from pathlib import Path
 
 import typst
@@ -18,9 +19,10 @@ def main(source, data, out):
                                                   timestamp=int(day.timestamp()))
   for warning in warnings:
     print(f"{source.name}: {warning}", file=sys.stderr)
-  new = out.with_name(out.name + ".tmp")
-  new.write_bytes(content)
-  os.replace(new, out)
+  with tempfile.TemporaryDirectory(dir=out.parent, prefix=out.name + ".", suffix=".tmp") as folder:
+    new = Path(folder) / out.name
+    new.write_bytes(content)
+    os.replace(new, out)
 
 
 if __name__ == "__main__":

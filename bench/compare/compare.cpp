@@ -61,6 +61,7 @@ Comparison compareScene(const BenchScene& what, const Options& options, Rasteriz
 void runAll(const Options& options) {
   // lavapipe reads it when it is loaded: as many threads as the CPU device has.
   setenv("LP_NUM_THREADS", std::to_string(options.threads).c_str(), 1);
+  if (!options.jsonFile.empty()) checkWhole(options.jsonFile);
   KernelCache kernels;
   const auto device = makeCpuDevice({.threads = options.threads});
   Rasterizer rasterizer(*device, kernels);
@@ -74,8 +75,7 @@ void runAll(const Options& options) {
   report.drawDevice += fmt::format(", LP_NUM_THREADS={}", options.threads);
   report.memory.push_back(measureMemory("sphere", options.size, options.threads));
   fmt::print("{}", text(report));
-  if (!options.jsonFile.empty() && !writeBeside(std::filesystem::absolute(options.jsonFile), json(report, options.raw)))
-    fail(fmt::format("{}: cannot be written", options.jsonFile));
+  if (!options.jsonFile.empty()) writeWhole(options.jsonFile, json(report, options.raw));
 }
 
 }  // namespace

@@ -137,13 +137,6 @@ class Measurement {
   const DeviceInfo& device_;
 };
 
-void writeFile(const std::string& name, const std::string& text) {
-  const auto path = std::filesystem::absolute(name);
-  std::error_code ignored;  // writeBeside() fails, too
-  std::filesystem::create_directories(path.parent_path(), ignored);
-  if (!writeBeside(path, text)) fail(fmt::format("{}: cannot be written", name));
-}
-
 void runAll(const Options& options) {
   KernelCache kernels;
   const auto device = makeCpuDevice({.threads = options.threads});
@@ -164,8 +157,11 @@ void runAll(const Options& options) {
     fmt::print("\n{}", text(cells, options.limits));
     std::fflush(stdout);
     // After each scene, so that what was measured stays when a later one fails.
-    if (!options.jsonFile.empty()) writeFile(options.jsonFile, jsonLines(report, options.raw));
-    writeFile(options.svgFile, heatMap(report));
+    std::error_code ignored;  // writeWhole() says it
+    const std::filesystem::path folder = std::filesystem::path(options.svgFile).parent_path();
+    if (!folder.empty()) std::filesystem::create_directories(folder, ignored);
+    if (!options.jsonFile.empty()) writeWhole(options.jsonFile, jsonLines(report, options.raw));
+    writeWhole(options.svgFile, heatMap(report));
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include "experiments/harness/rows.h"
 #include "host/error.h"
+#include "host/files.h"
 #include "host/row.h"
 
 namespace tessera::harness {
@@ -11,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// As writeBeside() names them.
+/// As files that are not finished are named.
 bool isHalfFile(const fs::path& path) {
   const std::string name = path.filename().string();
   return name.ends_with(".tmp") &&
@@ -24,6 +25,7 @@ std::optional<Record> recordOf(const fs::path& folder, bool resume) {
   std::error_code ignored;
   if (fs::exists(folder, ignored) && !fs::is_directory(folder, ignored))
     failUsage(fmt::format("--out {}: is a file; the name of a folder would do", folder.string()));
+  checkOutputFolder(folder);
   if (!fs::exists(journalOf(folder), ignored)) {
     for (const auto& entry : fs::directory_iterator(folder, ignored))
       if (!isHalfFile(entry.path()))

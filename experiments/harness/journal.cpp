@@ -165,17 +165,13 @@ void Journal::create(const fs::path& folder, const Json& head) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) failUsage(fmt::format("{}: the folder cannot be made: {}", folder.string(), error.message()));
-  const fs::path journal = journalOf(folder), half = folder / uniqueName(journal.filename().string());
-  int failure = writeBeside(half, lineOf(head)) ? 0 : EIO;
-  // A sweep that was begun here in the meantime keeps its journal.
-  if (failure == 0 && renameat2(AT_FDCWD, half.c_str(), AT_FDCWD, journal.c_str(), RENAME_NOREPLACE) != 0)
-    failure = errno;
-  if (failure == 0) return;
-  fs::remove(half, error);
-  if (failure == EEXIST)
-    failUsage(fmt::format("{}: another sweep has begun there meanwhile; another folder begins anew", folder.string()));
-  fail(fmt::format("{}: could not be written; a folder that can be written, with room in it, would do",
-                   journal.string()));
+  try {
+    // A sweep that was begun here in the meantime keeps its journal.
+    if (writeNew(journalOf(folder), lineOf(head))) return;
+  } catch (const Error& failure) {
+    fail(fmt::format("{}; a folder that can be written, with room in it, would do", failure.what()));
+  }
+  failUsage(fmt::format("{}: another sweep has begun there meanwhile; another folder begins anew", folder.string()));
 }
 
 Journal::Journal(const fs::path& folder) : path_(journalOf(folder)) {

@@ -137,9 +137,11 @@ void deriveRows(const std::filesystem::path& folder) {
   const std::filesystem::path path = folder / "rows.jsonl";
   const Record record = readJournal(folder);
   checkRowsKept(folder, record);
-  if (!writeBeside(path, rowsText(record)))
-    fail(fmt::format("{}: could not be written; the journal beside it is whole: --resume writes it once there is room",
-                     path.string()));
+  try {
+    writeWhole(path, rowsText(record));
+  } catch (const Error& error) {
+    fail(fmt::format("{}; the journal beside it is whole: --resume writes it once there is room", error.what()));
+  }
 }
 
 }  // namespace tessera::harness

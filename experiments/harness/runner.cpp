@@ -281,8 +281,7 @@ class Runner {
     if (begun_) journal_->cut(begun_->bytes);
     removeHalfFiles(folder_);
     // The report reads [plot] from it.
-    if (!fs::exists(folder_ / "sweep.toml") && !writeBeside(folder_ / "sweep.toml", sweep_.text))
-      fail(fmt::format("{}: could not be written", (folder_ / "sweep.toml").string()));
+    if (!fs::exists(folder_ / "sweep.toml")) writeWhole(folder_ / "sweep.toml", sweep_.text);
     session_ = begun_ ? begun_->sessions : 0;
     double load[3] = {};
     getloadavg(load, 3);

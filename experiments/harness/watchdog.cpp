@@ -1,7 +1,12 @@
 #include "experiments/harness/watchdog.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
+#include <system_error>
+
+#include "host/error.h"
 
 namespace tessera::harness {
 namespace {
@@ -20,7 +25,13 @@ Watchdog::Watchdog(double shortestLimitS, std::function<void(double)> late)
     : interval_(static_cast<std::int64_t>(std::clamp(shortestLimitS / 10, 0.001, 0.25) * 1e9)),
       late_(std::move(late)),
       end_(kNothing),
-      thread_([this](std::stop_token stop) { run(stop); }) {}
+      thread_([this] {
+        try {
+          return std::jthread([this](std::stop_token stop) { run(stop); });
+        } catch (const std::system_error& error) {
+          fail(fmt::format("sweep: the thread that keeps time limits cannot be made: {}", error.code().message()));
+        }
+      }()) {}
 
 Watchdog::~Watchdog() {
   thread_.request_stop();

@@ -10,6 +10,7 @@ import sys
 import tempfile
 import traceback
 
+from files import checkApart
 from refused import Refused
 import visible
 
@@ -79,6 +80,7 @@ def main():
 
   if arguments.export:
     checkExport(arguments.export)
+    checkApart(arguments.export, arguments.rows)
 
   # These take a second, and what is wrong with a folder should be said at once.
   import export

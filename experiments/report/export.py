@@ -1,18 +1,17 @@
 """The rows as one table of DuckDB, in a Parquet or DuckDB file."""
 
 import json
-import os
 from pathlib import Path
 import tempfile
 
 import duckdb
 
+from files import beside
+
 
 def write(sweep, path):
   """Table `rows`: fields as in rows.jsonl, nested ones as structs, and first what the report adds."""
-  new = path.with_name(path.name + ".tmp")
-  new.unlink(missing_ok=True)
-  with tempfile.TemporaryDirectory() as folder:
+  with beside(path) as new, tempfile.TemporaryDirectory() as folder:
     lines = Path(folder) / "rows.jsonl"
     with lines.open("w", encoding="utf-8") as file:
       for cell in sweep.cells:
@@ -36,4 +35,3 @@ def write(sweep, path):
       database.execute(f"CREATE TABLE rows AS {read}")
       if path.suffix == ".parquet":
         database.execute(f"COPY rows TO '{str(new).replace(chr(39), 2 * chr(39))}' (FORMAT parquet)")
-  os.replace(new, path)

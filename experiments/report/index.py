@@ -17,6 +17,7 @@ import plots
 from refused import Refused
 import rows
 import visible
+from files import writeBeside
 
 kEdge = 640  # pixels of a figure's longer side, at most
 kStyle = """
@@ -87,9 +88,7 @@ def main():
   parser.add_argument("--schema", type=int, required=True)
   arguments = parser.parse_args()
   path = arguments.out / "index.html"
-  new = path.with_name(f"index.html.{id(path)}.tmp")
-  new.write_text(html(arguments.out, arguments.names, arguments.schema), encoding="utf-8")
-  new.replace(path)
+  writeBeside(path, html(arguments.out, arguments.names, arguments.schema).encode())
   print(f"wrote {path}")
 
 

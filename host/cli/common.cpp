@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <set>
 
+#include "datasets/input-files.h"
 #include "datasets/input.h"
 #include "datasets/text.h"
 #include "host/cli/progress.h"
@@ -262,25 +263,10 @@ Route routeOf(const DeviceInfo& device, const Variant& variant) {
   return variant.get("route", "spirv") == "glsl" ? Route::kGlsl : Route::kSpirv;
 }
 
-void checkOutputPath(const fs::path& path, const std::string& input) {
-  if (path == "-") return;
-  const fs::path folder = path.has_parent_path() ? path.parent_path() : ".";
-  std::error_code ignored;
-  if (fs::is_directory(path, ignored)) failUsage(fmt::format("{}: is a folder; a file name would do", path.string()));
-  if (!fs::is_directory(folder, ignored))
-    failUsage(fmt::format("{}: the folder {} does not exist", path.string(), folder.string()));
-  if (access(folder.c_str(), W_OK) != 0)
-    failUsage(fmt::format("{}: the folder {} cannot be written", path.string(), folder.string()));
-  if (fs::equivalent(path, input, ignored))
-    failUsage(fmt::format("{}: is the input; another name would keep it", path.string()));
-}
-
-void writeText(const fs::path& path, const std::string& text) {
-  if (path == "-") {
-    std::fputs(text.c_str(), stdout);
-    return;
-  }
-  if (!writeBeside(path, text)) fail(fmt::format("{}: could not be written", path.string()));
+std::vector<fs::path> inputsOf(const Options& options) {
+  std::vector<fs::path> files = inputFiles(options.input);
+  for (const std::string& text : options.kernels) files.emplace_back(text.substr(text.find('=') + 1));
+  return files;
 }
 
 std::string quoted(const std::string& word) {

@@ -60,10 +60,8 @@ std::vector<std::string> presentDevices();
 /// How kernels reach this device under this variant.
 Route routeOf(const DeviceInfo& device, const Variant& variant);
 
-/// Refuses a file that could not be written, or that is the input itself; called before any work. "-" is stdout.
-void checkOutputPath(const std::filesystem::path& path, const std::string& input);
-/// Written beside the name and renamed; "-" is stdout.
-void writeText(const std::filesystem::path& path, const std::string& text);
+/// All files that the command reads: the input, what a scene names, the user's kernels.
+std::vector<std::filesystem::path> inputsOf(const Options& options);
 
 /// A word as a shell takes it, in quotes where it needs them.
 std::string quoted(const std::string& word);

@@ -213,7 +213,7 @@ ExitCode runCompare(const CompareOptions& options) {
   if (!options.json.empty()) rows.emplace(options.json);
   const Outcome outcome = compareFiles(options, request, output);
   if (rows) rows->append(outcomeJson(options, request, outcome));
-  const bool stdoutIsTaken = options.json == "-" || (output && output->path() == "-");
+  const bool stdoutIsTaken = std::ranges::any_of(outputs, isStdout);
   say(stdoutIsTaken ? stderr : stdout, "{}", outcomeText(options, request, outcome));
   return verdictOf(request, outcome).code;
 }

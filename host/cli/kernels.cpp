@@ -79,6 +79,11 @@ ExitCode emit(const KernelsOptions& options) {
   if (error || !fs::is_directory(folder))
     failUsage(fmt::format("--emit {} {}: the folder cannot be made; a name that is free, or a folder, would do",
                           target.name, folder.string()));
+  std::vector<fs::path> outputs{folder / "manifest.json"};
+  for (const KernelRequest& request : kernelRequests(plan, {}))
+    outputs.push_back(folder / fmt::format("{}.{}", request.stage, target.extension));
+  checkApart(outputs, inputsOf(options));
+  for (const fs::path& output : outputs) checkWhole(output);
   std::vector<std::vector<std::string>> rows{{"stage", "bytes", "file"}};
   std::size_t missing = 0;
   std::vector<WrittenStage> stages;
@@ -87,7 +92,7 @@ ExitCode emit(const KernelsOptions& options) {
     const Emitted emitted = emitKernel(kernels, request, target);
     const fs::path file = folder / fmt::format("{}.{}", emitted.stage, target.extension);
     if (emitted.complaint.empty())
-      writeText(file, emitted.bytes);
+      writeWhole(file, emitted.bytes);
     else
       ++missing;
     stages.push_back({emitted, emitted.complaint.empty() ? file.filename().string() : ""});

@@ -3,14 +3,19 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
+#include <csignal>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <new>
+#include <system_error>
 
 #include "host/build-info.h"
 #include "host/cli/commands.h"
 #include "host/cli/help.h"
 #include "host/cli/mistake.h"
+#include "host/output-place.h"
 #include "host/terminal.h"
 
 namespace {
@@ -61,13 +66,22 @@ ExitCode runCommand(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  // A reader that has gone, or a file at its limit, is an error of the write, which says the name.
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
   ExitCode code = ExitCode::kDone;
   try {
     code = runCommand(argc, argv);
+    errno = 0;
     if (std::fflush(stdout) != 0 || std::ferror(stdout))
-      code = complain(ExitCode::kFailure, "stdout: the output could not be written");
+      code = complain(ExitCode::kFailure,
+                      fmt::format("stdout: could not be written{}", errno != 0 ? ": " + causeOf(errno) : ""));
   } catch (const Error& error) {
     code = complain(error.code(), error.what());
+  } catch (const std::filesystem::filesystem_error& error) {
+    code = complain(ExitCode::kFailure, fmt::format("{}: {}", error.path1().string(), error.code().message()));
+  } catch (const std::system_error& error) {  // fmt's, of a stream, say no name
+    code = complain(ExitCode::kFailure, std::ferror(stdout) == 0 ? error.what() : fmt::format("stdout: could not be written: {}", error.code().message()));
   } catch (const std::bad_alloc&) {
     code = complain(ExitCode::kFailure, "out of memory: a smaller --size or scene would fit");
   } catch (const std::exception& error) {

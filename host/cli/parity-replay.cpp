@@ -19,7 +19,7 @@ namespace {
 constexpr double kSeconds = 20;
 
 Scene replayOf(const Scene& scene) {
-  const TemporaryFolder folder(std::filesystem::temp_directory_path(), "tessera-replay");
+  const TemporaryFolder folder(temporaryRoot(), "tessera-replay");
   const std::filesystem::path file = folder.path() / "scene.replay";
   writeReplay(file, scene);
   return readReplay(file);

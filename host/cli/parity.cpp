@@ -229,21 +229,27 @@ void writeReplayOf(Parity& parity, const std::vector<Outcome>& outcomes, const P
 }
 
 ExitCode runParity(const ParityOptions& options) {
-  if (!options.json.empty()) checkOutputPath(options.json, options.input);
   // A replay that differs again is its own replay.
   std::error_code absent;
   const bool replayed = !options.replay.empty() && std::filesystem::equivalent(options.replay, options.input, absent);
-  if (!options.replay.empty() && !replayed) checkOutputPath(options.replay, options.input);
+  const bool replays = !options.replay.empty() && !replayed;
+  std::vector<std::filesystem::path> outputs;
+  if (!options.json.empty()) outputs.emplace_back(options.json);
+  if (replays) outputs.emplace_back(options.replay);
+  checkApart(outputs, inputsOf(options));
+  if (replays) checkWhole(options.replay);
+  std::optional<AppendedFile> file;
+  if (!options.json.empty()) file.emplace(options.json);
 
   Parity parity(options);
   const auto outcomes = parity.run();
-  if (!options.json.empty()) {
+  if (file) {
     std::string rows;
     for (const auto& outcome : outcomes) rows += rowText(outcome.run) + '\n';
-    writeText(options.json, rows);
+    file->append(rows);
   }
   if (!options.quiet)
-    say(options.json == "-" ? stderr : stdout, "{}", parityReport(parity.scene(), outcomes));
+    say(file && isStdout(options.json) ? stderr : stdout, "{}", parityReport(parity.scene(), outcomes));
   const ExitCode code = exitCode(outcomes);
   if (code == ExitCode::kDifference && !replayed) writeReplayOf(parity, outcomes, options);
   return code;
@@ -265,7 +271,7 @@ Command addParity(CLI::App& app) {
   addQuiet(*command, options->quiet);
   command
       ->add_option("--json", options->json,
-                   "write a result row (a line of JSON) a device and route to FILE, or - for stdout")
+                   "add a result row, one line of JSON, for each device and route to FILE's end; - is stdout")
       ->type_name("FILE");
   command
       ->add_option("--replay", options->replay,

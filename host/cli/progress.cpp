@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdio>
+#include <system_error>
 
 #include "host/terminal.h"
 
@@ -21,14 +22,19 @@ constexpr std::chrono::seconds kLogInterval{10};
 Progress::Progress(std::string label, std::size_t total)
     : label_(std::move(label)),
       terminal_(isatty(STDERR_FILENO) == 1),
-      total_(total),
-      watcher_([this](std::stop_token stop) { watch(stop); }) {}
+      total_(total) {
+  try {
+    watcher_ = std::jthread([this](std::stop_token stop) { watch(stop); });
+  } catch (const std::system_error&) {
+    // without a thread there is no progress to see; the work goes on
+  }
+}
 
 void Progress::silence() { silent = true; }
 
 Progress::~Progress() {
   watcher_.request_stop();
-  watcher_.join();
+  if (watcher_.joinable()) watcher_.join();
   if (drawn_ && terminal_) fmt::print(stderr, "\r\033[K");
 }
 

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "host/cli/commands.h"
 #include "host/cli/common.h"
@@ -16,6 +17,7 @@
 #include "host/cli/times.h"
 #include "host/files.h"
 #include "host/image-facts.h"
+#include "host/image.h"
 #include "host/kernel-cache.h"
 #include "host/rasterizer.h"
 #include "host/row.h"
@@ -106,8 +108,10 @@ ExitCode render(const RenderOptions& options) {
   std::vector<std::filesystem::path> outputs;
   for (const auto& output : options.outputs) outputs.push_back(images.emplace_back(output).path());
   if (!options.json.empty()) outputs.emplace_back(options.json);
-  checkApart(outputs, {options.input});
-  if (!options.json.empty()) checkOutputPath(options.json, options.input);
+  checkApart(outputs, inputsOf(options));
+  const bool onStdout = std::ranges::any_of(outputs, isStdout);
+  std::optional<AppendedFile> rows;
+  if (!options.json.empty()) rows.emplace(options.json);
   KernelCache kernels({.files = kernelFilesOf(options)});
   const auto device = openDevice(options);
   const Scene scene = sceneOf(options);
@@ -115,7 +119,7 @@ ExitCode render(const RenderOptions& options) {
   Run run = beginRun(scene, variant, *device, kernels);
   run.attributeRange = attributeOf(options).range;
   const auto writeRow = [&] {
-    if (!options.json.empty()) writeText(options.json, rowText(run) + '\n');
+    if (rows) rows->append(rowText(run));
   };
   Framebuffer image;
   try {
@@ -131,9 +135,7 @@ ExitCode render(const RenderOptions& options) {
   for (auto& output : images) output.write(image, run.attributeRange, facts);
   writeRow();
   if (options.quiet) return ExitCode::kDone;
-  const bool stdoutIsTaken =
-      options.json == "-" || std::ranges::any_of(images, [](const auto& output) { return output.path() == "-"; });
-  say(stdoutIsTaken ? stderr : stdout, "{}", summary(options, run, coveredPixels(image)));
+  say(onStdout ? stderr : stdout, "{}", summary(options, run, coveredPixels(image)));
   say(stderr, "{}", timesWarning(run));
   return ExitCode::kDone;
 }
@@ -159,7 +161,7 @@ Command addRender(CLI::App& app) {
   addQuiet(*command, options->quiet);
   command->add_flag("--error", options->error,
                     "compare the image with the oracle's; always done where an axis is approximate");
-  command->add_option("--json", options->json, "write the result row (one line of JSON) to FILE, or - for stdout")
+  command->add_option("--json", options->json, "add the result row, one line of JSON, to FILE's end; - is stdout")
       ->type_name("FILE");
   command->footer(
       "Without -o and --json the frames are rendered and timed, and nothing is written. Times are those of the whole "
@@ -168,7 +170,7 @@ Command addRender(CLI::App& app) {
       "  tessera render mesh:refined_elephant -o elephant.png --set shade=smooth --size 1920x1080\n"
       "  tessera render 'generate:icosphere?level=7' --device vulkan:0 --set route=glsl -o ball.exr\n"
       "  tessera render generate:grid --attribute z --set fill=inclusive,sub-pixel=0 -o heights.exr -o heights.png\n"
-      "  tessera render mesh:refined_elephant --threads 1 --repeat 50 --json row.jsonl");
+      "  tessera render mesh:refined_elephant --threads 1 --repeat 50 --json rows.jsonl");
   return {command, [options] { return render(*options); }};
 }
 

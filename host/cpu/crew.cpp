@@ -1,5 +1,6 @@
 #include "host/cpu/crew.h"
 
+#include <fmt/format.h>
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
@@ -12,11 +13,32 @@
 #include <exception>
 #include <mutex>
 #include <optional>
+#include <system_error>
 #include <thread>
 #include <vector>
 
+#include "host/error.h"
+
 namespace tessera {
 namespace {
+
+/// Rows say how many threads a frame had, so fewer than asked for are an error.
+[[noreturn]] void failThread(std::size_t made, unsigned wanted, const std::system_error& error) {
+  fail(fmt::format("cpu: thread {} of {} cannot be made: {}; --threads {} would do", made + 1, wanted,
+                   error.code().message(), std::max<std::size_t>(made, 1)));
+}
+
+/// oneTBB makes its threads late, and ends the process where it cannot: so they are tried first.
+void tryThreads(unsigned wanted) {
+  std::mutex gate;
+  std::vector<std::jthread> others;
+  const std::unique_lock closed(gate);  // opened before they are waited for
+  try {
+    while (others.size() + 1 < wanted) others.emplace_back([&gate] { const std::lock_guard pass(gate); });
+  } catch (const std::system_error& error) {
+    failThread(others.size() + 1, wanted, error);
+  }
+}
 
 class TbbCrew final : public Crew {
  public:
@@ -26,6 +48,7 @@ class TbbCrew final : public Crew {
     if (threads > tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism))
       more_.emplace(tbb::global_control::max_allowed_parallelism, threads);
     arena_.initialize();
+    tryThreads(this->threads());
   }
   unsigned threads() const override { return static_cast<unsigned>(arena_.max_concurrency()); }
   void run(const std::function<void()>& work) override {
@@ -44,16 +67,14 @@ class PlainCrew final : public Crew {
  public:
   explicit PlainCrew(unsigned threads) {
     const unsigned wanted = threads != 0 ? threads : std::max(1u, std::thread::hardware_concurrency());
-    for (unsigned i = 1; i < wanted; ++i) others_.emplace_back([this] { serve(); });
-  }
-  ~PlainCrew() override {
-    {
-      const std::lock_guard lock(mutex_);
-      leaving_ = true;
+    try {
+      while (others_.size() + 1 < wanted) others_.emplace_back([this] { serve(); });
+    } catch (const std::system_error& error) {
+      leave();
+      failThread(others_.size() + 1, wanted, error);
     }
-    changed_.notify_all();
-    for (std::thread& thread : others_) thread.join();
   }
+  ~PlainCrew() override { leave(); }
   unsigned threads() const override { return static_cast<unsigned>(others_.size()) + 1; }
   void run(const std::function<void()>& work) override {
     {
@@ -69,6 +90,13 @@ class PlainCrew final : public Crew {
   }
 
  private:
+  void leave() {
+    {
+      const std::lock_guard lock(mutex_);
+      leaving_ = true;
+    }
+    changed_.notify_all();
+  }
   void serve() {
     std::unique_lock lock(mutex_);
     for (std::uint64_t seen = 0;;) {
@@ -89,7 +117,7 @@ class PlainCrew final : public Crew {
   std::uint64_t round_ = 0;
   std::size_t busy_ = 0;
   bool leaving_ = false;
-  std::vector<std::thread> others_;
+  std::vector<std::jthread> others_;  ///< last, so that they end before what they use is gone
 };
 
 /// Kernels run with IEEE rounding and denormals, whatever the caller's thread was set to.

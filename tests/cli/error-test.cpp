@@ -1,6 +1,7 @@
 // What render says of an image's error: of approximate variants always, of others when asked, of values and hits.
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "run-tessera.h"
 
@@ -16,7 +17,10 @@ json rowOf(Desk& desk, const std::string& arguments, std::string* summary = null
   INFO(arguments << "\n" << outcome.out << outcome.err);
   REQUIRE(outcome.code == 0);
   if (summary) *summary = outcome.out;
-  return json::parse(desk.read("row.json"));
+  std::istringstream rows(desk.read("row.json"));  // the newest is the last
+  std::string row;
+  for (std::string line; std::getline(rows, line);) row = line;
+  return json::parse(row);
 }
 
 }  // namespace
@@ -113,10 +117,10 @@ TEST_CASE("A raster of values has its error and its range in the row and the sam
   CHECK(compared.code == 5);
   CHECK(compared.out.find("largest difference of the values 3") != std::string::npos);  // 32767 - 5, next to the edge
 
-  const auto parity = desk.tessera("parity field.toml --attribute height --range -5,5 --json row.json");
+  const auto parity = desk.tessera("parity field.toml --attribute height --range -5,5 --json rows.json");
   INFO(parity.out << parity.err);
   CHECK(parity.code == 0);
-  std::istringstream rows(desk.read("row.json"));
+  std::istringstream rows(desk.read("rows.json"));
   for (std::string line; std::getline(rows, line);) {
     const json error = json::parse(line)["error"];
     CHECK(error["attribute_mismatch"] == 0);

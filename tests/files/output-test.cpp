@@ -180,6 +180,7 @@ TEST_CASE("Where nothing can be written is said before the work") {
   const auto check = [&](const fs::path& path, const std::string& why) {
     CHECK(contains(lineOf(ExitCode::kUsage, [&] { OutputFile{path}; }), why));
     CHECK(contains(lineOf(ExitCode::kUsage, [&] { AppendedFile{path}; }), why));
+    CHECK(contains(lineOf(ExitCode::kUsage, [&] { checkWhole(path); }), why));
   };
   check("", "has no name");
   check(folder / "folder", "is a folder");
@@ -198,6 +199,7 @@ TEST_CASE("Where nothing can be written is said before the work") {
   fs::permissions(folder / "folder", fs::perms(0555));
   check(folder / "folder/b", "cannot be written: Permission denied");
   CHECK(contains(lineOf(ExitCode::kUsage, [&] { OutputFile{folder / "folder/a"}; }), "beside its name first"));
+  appendLine(folder / "folder/a", "row");  // which needs no new file
   fs::permissions(folder / "folder", fs::perms(0755));
 }
 
@@ -217,7 +219,7 @@ TEST_CASE("The temporary folder is named where it is missing") {
   setenv("TMPDIR", "/nowhere/tmp", 1);
   const std::string line = lineOf(ExitCode::kFailure, [] { OutputFile{"/dev/null"}; });
   before.empty() ? unsetenv("TMPDIR") : setenv("TMPDIR", before.c_str(), 1);
-  CHECK(contains(line, "TMPDIR=/nowhere/tmp: No such file or directory"));
+  CHECK(contains(line, "/nowhere/tmp: cannot be written: No such file or directory"));
 }
 
 }  // namespace tessera::test

@@ -1,4 +1,7 @@
 // What goes wrong with sources, compilers and folders: one line that says where and what.
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <catch2/catch.hpp>
 
 #include "fixture.h"
@@ -49,6 +52,56 @@ TEST_CASE("A cache folder that cannot be written is one clear line") {
   });
   CHECK(contains(line, "file/cache"));
   CHECK(contains(line, "TESSERA_CACHE"));
+}
+
+TEST_CASE("A folder or a file in the place of a cached file is cleared away") {
+  const Workshop shop;
+  const std::filesystem::path binary = shop.open().get(scaleRequest(Route::kSpirv)).binary, entry = binary.parent_path();
+  const auto heals = [&](const std::filesystem::path& path, bool file) {
+    INFO(path);
+    std::filesystem::remove_all(path);
+    if (file)
+      writeText(path, "no folder");
+    else
+      std::filesystem::create_directories(path / "folder");
+    CHECK(shop.open().get(scaleRequest(Route::kSpirv)).binary == binary);
+    KernelCache again = shop.open();
+    again.get(scaleRequest(Route::kSpirv));
+    CHECK(again.statistics().hits == 1);
+  };
+  heals(binary, false);
+  heals(entry / "interface.json", false);
+  heals(entry, true);
+  heals(shop.cache / "tools.json", false);
+  CHECK(std::filesystem::is_regular_file(shop.cache / "tools.json"));
+}
+
+TEST_CASE("A cache that others can write is refused") {
+  const Workshop shop;
+  const std::filesystem::path binary = shop.open().get(scaleRequest(Route::kSpirv)).binary;
+  for (const std::filesystem::path& path :
+       {binary, binary.parent_path(), binary.parent_path() / "interface.json", shop.cache, shop.cache / "tools.json"}) {
+    const auto before = std::filesystem::status(path).permissions();
+    for (const auto others : {std::filesystem::perms::group_write, std::filesystem::perms::others_write}) {
+      std::filesystem::permissions(path, before | others);
+      const std::string line = lineOf(ExitCode::kUsage, [&] { shop.open().get(scaleRequest(Route::kSpirv)); });
+      CHECK(contains(line, path.string() + ": others can write it"));
+    }
+    std::filesystem::permissions(path, before);
+  }
+  CHECK(shop.open().get(scaleRequest(Route::kSpirv)).binary == binary);
+  if (geteuid() != 0 || chown(binary.c_str(), 12345, 12345) != 0) return;  // root alone gives files away
+  CHECK(contains(lineOf(ExitCode::kUsage, [&] { shop.open().get(scaleRequest(Route::kSpirv)); }), "belongs to 12345"));
+}
+
+TEST_CASE("What others may not write is made so under whatever umask") {
+  const Workshop shop;
+  const mode_t before = umask(0);
+  const std::filesystem::path cache = shop.folder.path() / "deep" / "cache";
+  const auto get = [&] { return KernelCache({cache, shop.slang, false, ""}).get(scaleRequest()); };
+  const CompiledKernel made = get();
+  umask(before);
+  CHECK(get().binary == made.binary);
 }
 
 TEST_CASE("A file that slangc reads unknown to the key is refused") {

@@ -1,0 +1,139 @@
+// Where outputs go, and what is refused before the first frame.
+#include <sys/stat.h>
+#include <sys/sysmacros.h>
+
+#include <algorithm>
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "run-tessera.h"
+
+using nlohmann::json;
+using tessera::test::Desk;
+
+namespace {
+
+const std::string kRender = "render two.obj --size 16x16 ";
+
+void refused(const Desk& desk, const std::string& arguments, const std::string& named) {
+  const auto before = desk.names();
+  const auto outcome = desk.tessera(arguments);
+  INFO("tessera " << arguments << "\n" << outcome.err << outcome.out);
+  CHECK(outcome.code == 2);
+  CHECK(outcome.complainsOnce());
+  CHECK(outcome.err.find(named) != std::string::npos);
+  CHECK(desk.names() == before);
+}
+
+std::size_t lines(const std::string& text) { return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')); }
+
+}  // namespace
+
+TEST_CASE("Rows are added to a file and written to what is no file") {
+  Desk desk;
+  desk.write("two.obj", tessera::test::twoTriangles());
+  desk.write("rows.jsonl", "{\"old\":1}\n");
+  REQUIRE(desk.tessera(kRender + "--json rows.jsonl").code == 0);
+  REQUIRE(desk.tessera(kRender + "--json rows.jsonl").code == 0);
+  const std::string rows = desk.read("rows.jsonl");
+  CHECK(rows.starts_with("{\"old\":1}\n"));
+  CHECK(lines(rows) == 3);
+  const auto out = desk.tessera(kRender + "--json /dev/stdout");
+  CHECK(out.code == 0);
+  CHECK(json::parse(out.out)["status"] == "ok");
+  CHECK(out.err.find("pixels covered") != std::string::npos);
+  REQUIRE(mkfifo((desk.path() / "pipe").c_str(), 0600) == 0);
+  const auto piped = desk.tessera(kRender + "--json pipe", "cat pipe >from-pipe & ");
+  CHECK(piped.code == 0);
+  CHECK(std::filesystem::is_fifo(desk.path() / "pipe"));
+  const auto full = desk.tessera(kRender + "--json /dev/full");
+  INFO(full.err);
+  CHECK(full.code == 1);
+  CHECK(full.err.find("/dev/full: could not be written: No space left on device") != std::string::npos);
+  if (mknod((desk.path() / "null").c_str(), S_IFCHR | 0666, makedev(1, 3)) != 0) return;  // as root only
+  CHECK(desk.tessera(kRender + "--json null").code == 0);
+  CHECK(std::filesystem::is_character_file(desk.path() / "null"));
+}
+
+TEST_CASE("A row that does not fit leaves the rows before it and the reason") {
+  Desk desk;
+  desk.write("two.obj", tessera::test::twoTriangles());
+  const std::string old = std::string(2000, 'x') + '\n';
+  desk.write("rows.jsonl", old);
+  const auto outcome = desk.tessera("render two.obj --size 16x16 --json rows.jsonl", "ulimit -f 2;");
+  INFO(outcome.err);
+  CHECK(outcome.code == 1);
+  CHECK(outcome.err.find("rows.jsonl: could not be written: ") != std::string::npos);
+  CHECK(desk.read("rows.jsonl") == old);
+}
+
+TEST_CASE("Two outputs of one file and outputs that are inputs are refused") {
+  Desk desk;
+  desk.write("two.obj", tessera::test::twoTriangles());
+  desk.write("mine.comp", "void main() {}\n");
+  desk.write("scene.toml", "size = [16, 16]\n[[mesh]]\nsource = \"two.obj\"\n");
+  std::filesystem::create_symlink("two.obj", desk.path() / "two.png");
+  std::filesystem::create_hard_link(desk.path() / "two.obj", desk.path() / "hard.png");
+  refused(desk, kRender + "-o two.png", "is the input two.obj");
+  refused(desk, kRender + "-o hard.png", "is the input two.obj");
+  refused(desk, "render scene.toml --json two.obj", "is an input");
+  refused(desk, "render scene.toml --json scene.toml", "is an input");
+  refused(desk, kRender + "--device vulkan --kernel transform=mine.comp --json mine.comp", "is an input");
+  refused(desk, "parity scene.toml --device cpu --replay two.obj", "two.obj");
+  refused(desk, "parity two.obj --device cpu --replay a --json ./a", "is the same file as");
+  refused(desk, kRender + "-o a.png -o a.png", "is named twice");
+  refused(desk, kRender + "-o a.png -o ./a.png", "is the same file as");
+  refused(desk, kRender + "-o png:- --json -", "is named twice");
+  CHECK(desk.read("two.obj") == tessera::test::twoTriangles());
+}
+
+TEST_CASE("What killed runs left is cleared and a reader that goes is an error") {
+  Desk desk;
+  desk.write("two.obj", tessera::test::twoTriangles());
+  desk.write("a.png.999-abcdefgh.tmp", "half");
+  std::filesystem::create_directory(desk.path() / "a.png.part");
+  CHECK(desk.tessera(kRender + "-o a.png").code == 0);
+  CHECK(desk.names() == std::vector<std::string>{"a.png", "a.png.part", "two.obj"});
+  // Opened for writing once there is a reader, and left by it.
+  desk.tessera("variants >&5 2>said; echo $? >code #", "mkfifo pipe; (exec 4<pipe) & exec 5>pipe; wait;");
+  CHECK(desk.read("code") == "1\n");
+  CHECK(desk.read("said") == "tessera: stdout: could not be written: Broken pipe\n");
+}
+
+TEST_CASE("Folders that are full or missing or of others are named") {
+  Desk desk;
+  desk.write("two.obj", tessera::test::twoTriangles());
+  const auto missing = desk.tessera(kRender + "-o a.png", "TESSERA_CACHE=$PWD/cold TMPDIR=/nowhere/tmp");
+  INFO(missing.err);
+  CHECK(missing.code == 1);
+  CHECK(missing.complainsOnce());
+  CHECK(missing.err.find("/nowhere/tmp: cannot be written: No such file or directory") != std::string::npos);
+  const auto full = desk.tessera(kRender + "-o a.png", "ulimit -f 0; TESSERA_CACHE=$PWD/cold");
+  INFO(full.err);
+  CHECK(full.code == 1);
+  CHECK(full.err.find("cannot be written: File too large") != std::string::npos);
+  CHECK(full.err.find("./dev build") == std::string::npos);
+  std::filesystem::create_directory(desk.path() / "open");
+  std::filesystem::permissions(desk.path() / "open", std::filesystem::perms(0777));
+  const auto open = desk.tessera(kRender + "-o a.png", "TESSERA_CACHE=open");
+  INFO(open.err);
+  CHECK(open.code == 2);
+  CHECK(open.complainsOnce());
+  CHECK(open.err.find("open: others can write it (mode 777)") != std::string::npos);
+}
+
+TEST_CASE("A thread that cannot be made is an error and no abort") {
+  Desk desk;
+  desk.write("two.obj", tessera::test::twoTriangles());
+  const std::string none = "LD_PRELOAD=" TESSERA_NO_THREADS;
+  const auto several = desk.tessera(kRender + "--threads 4 --json row.json", none);
+  INFO(several.err);
+  CHECK(several.code == 1);
+  CHECK(several.err == "tessera: cpu: thread 2 of 4 cannot be made: Resource temporarily unavailable; --threads 1 would do\n");
+  const auto one = desk.tessera(kRender + "--threads 1 --json row.json", none);
+  INFO(one.err);
+  CHECK(one.code == 0);
+  CHECK(desk.names() == std::vector<std::string>{"row.json", "two.obj"});
+}
