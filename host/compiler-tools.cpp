@@ -94,6 +94,8 @@ const std::string& processorIdentity() {
 ToolMemory::ToolMemory(const fs::path& folder) : file_(folder / "tools.json") {
   checkOwn(folder);
   checkOwn(file_);
+  std::error_code none;
+  if (!fs::is_regular_file(file_, none)) return;  // a folder is replaced by the first answer
   std::ifstream file(file_);
   const nlohmann::json stored = nlohmann::json::parse(file, nullptr, false);
   if (!stored.is_object()) return;  // none yet, or broken: ask again

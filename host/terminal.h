@@ -3,9 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <cstdio>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 
 namespace tessera {
@@ -14,11 +16,12 @@ namespace tessera {
 /// and each byte that is not UTF-8 written out: "\u001b", "\u202e", "\xff". Text of JSON stays JSON with the same values.
 std::string visible(std::string_view text);
 
-/// Prints to stdout or stderr what people read.
+/// Prints to stdout or stderr what people read. Throws std::system_error where stdout takes no more.
 template <typename... Arguments>
 void say(std::FILE* file, fmt::format_string<Arguments...> format, Arguments&&... arguments) {
   const std::string text = visible(fmt::format(format, std::forward<Arguments>(arguments)...));
-  std::fwrite(text.data(), 1, text.size(), file);
+  if (std::fwrite(text.data(), 1, text.size(), file) != text.size() && file == stdout)
+    throw std::system_error(errno, std::generic_category());
 }
 
 }  // namespace tessera

@@ -3,7 +3,6 @@
 #include <sys/sysmacros.h>
 
 #include <algorithm>
-
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -45,7 +44,7 @@ TEST_CASE("Rows are added to a file and written to what is no file") {
   CHECK(json::parse(out.out)["status"] == "ok");
   CHECK(out.err.find("pixels covered") != std::string::npos);
   REQUIRE(mkfifo((desk.path() / "pipe").c_str(), 0600) == 0);
-  const auto piped = desk.tessera(kRender + "--json pipe", "cat pipe >from-pipe & ");
+  const auto piped = desk.tessera(kRender + "--json pipe", "(cat pipe >from-pipe 2>&1 &);");
   CHECK(piped.code == 0);
   CHECK(std::filesystem::is_fifo(desk.path() / "pipe"));
   const auto full = desk.tessera(kRender + "--json /dev/full");
@@ -110,7 +109,7 @@ TEST_CASE("Folders that are full or missing or of others are named") {
   CHECK(missing.code == 1);
   CHECK(missing.complainsOnce());
   CHECK(missing.err.find("/nowhere/tmp: cannot be written: No such file or directory") != std::string::npos);
-  const auto full = desk.tessera(kRender + "-o a.png", "ulimit -f 0; TESSERA_CACHE=$PWD/cold");
+  const auto full = desk.tessera(kRender + "-o a.png", "ulimit -f 1; TESSERA_CACHE=$PWD/cold");
   INFO(full.err);
   CHECK(full.code == 1);
   CHECK(full.err.find("cannot be written: File too large") != std::string::npos);
