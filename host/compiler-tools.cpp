@@ -69,8 +69,14 @@ std::string checkSlangc(const fs::path& slangc) {
                                          work.path());
   if (!result.ok() || !fs::exists(module)) checkWritten(work.path(), result.output);
   if (!result.ok() || !fs::exists(module)) fail("cannot compile a small kernel to SPIR-V: " + firstLine(result.output));
-  if (const std::vector<std::string> violations = checkSpirv(module); !violations.empty())
-    fail("its SPIR-V is not exact: " + violations[0]);
+  std::vector<std::string> violations;
+  try {
+    violations = checkSpirv(module);
+  } catch (const Error&) {
+    checkWritten(work.path(), "");  // slangc says nothing of a file that it could not write to its end
+    throw;
+  }
+  if (!violations.empty()) fail("its SPIR-V is not exact: " + violations[0]);
   return "passed";
 }
 
