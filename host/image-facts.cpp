@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <array>
 #include <string>
 #include <vector>
 
@@ -17,6 +19,16 @@ constexpr char kVersion[] = TESSERA_VERSION " (" TESSERA_GIT ")";
 AxisKind kindOf(const std::string& axisName, const std::string& value) {
   const Axis& found = axis(axisName);
   return found.values.empty() || found.kind() == AxisKind::kImage ? found.kind() : axisValue(axisName, value).kind;
+}
+
+/// Clip space from the input's coordinates, row-major: M translate(-O), in double where there is an origin O.
+std::string cameraText(const Scene& scene) {
+  if (scene.origin == glm::dvec3(0)) return fmt::format("{}", fmt::join(scene.clipFromObject, " "));
+  std::array<double, 16> matrix;
+  std::ranges::copy(scene.clipFromObject, matrix.begin());
+  for (std::size_t r = 0; r < 16; r += 4)
+    matrix[r + 3] -= (matrix[r] * scene.origin.x + matrix[r + 1] * scene.origin.y) + matrix[r + 2] * scene.origin.z;
+  return fmt::format("{}", fmt::join(matrix, " "));
 }
 
 }  // namespace
@@ -35,7 +47,7 @@ ImageFacts factsOf(const Run& run) {
   // In the order of their names, as they are read.
   if (!approximate.empty()) facts.emplace_back("approximate", fmt::format("{}", fmt::join(approximate, " ")));
   if (!scene.attribute.empty()) facts.emplace_back("attribute", scene.attributeName);
-  if (!scene.positions.empty()) facts.emplace_back("camera", fmt::format("{}", fmt::join(scene.clipFromObject, " ")));
+  if (!scene.positions.empty()) facts.emplace_back("camera", cameraText(scene));
   facts.emplace_back("image", fmt::format("{}", fmt::join(image, " ")));
   if (!run.kernelFiles.empty()) {
     std::vector<std::string> kernels;

@@ -6,7 +6,7 @@
 
 namespace tessera {
 
-/// Of a frame's image: the scene's hash, camera and origin, the raster, each axis value that is not an implementation's,
+/// Of a frame's image: the scene's hash, its camera (clip space from the input's coordinates, row-major) and origin, the raster, each axis value that is not an implementation's,
 /// the attribute and its range, the user's kernels by their hashes, and the version of Tessera. Device, route,
 /// implementation axes and times are the row's alone.
 ImageFacts factsOf(const Run& run);
