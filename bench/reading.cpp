@@ -1,5 +1,5 @@
-// How fast mesh files are read: bytes a second of each format, from the page cache to a Mesh, normals apart. The bars are 200 MB/s
-// for text and 1 GB/s for binary files; the label says whether a format is over its bar here.
+// How fast mesh files are read: bytes a second of each format, from the page cache to a Mesh, normals apart. The bars
+// are 200 MB/s for text and 1 GB/s for binary files; the label says whether a format is over its bar here.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
@@ -137,8 +137,10 @@ void read(benchmark::State& state, const Case& one, const std::string& path) {
   }
   std::filesystem::remove(path);
   state.SetBytesProcessed(static_cast<std::int64_t>(size) * state.iterations());
-  const double rate = size * static_cast<double>(state.iterations()) / seconds, bar = one.binary ? kBinaryBar : kTextBar;
-  state.SetLabel(fmt::format("{:.0f} MB, {} times its bar of {:.0f} MB/s", size / 1e6, fmt::format("{:.2f}", rate / bar), bar / 1e6));
+  const double rate = size * static_cast<double>(state.iterations()) / seconds,
+               bar = one.binary ? kBinaryBar : kTextBar;
+  state.SetLabel(fmt::format("{:.0f} MB, {} times its bar of {:.0f} MB/s", size / 1e6,
+                             fmt::format("{:.2f}", rate / bar), bar / 1e6));
 }
 
 void normals(benchmark::State& state) {
@@ -158,9 +160,11 @@ void normals(benchmark::State& state) {
 int main(int argc, char** argv) {
   const tessera::TemporaryFolder folder(std::filesystem::temp_directory_path(), "bench-reading");
   for (const tessera::Case& one : tessera::kCases)
-    benchmark::RegisterBenchmark(("read:" + one.name).c_str(), [&](benchmark::State& state) {
-      tessera::read(state, one, (folder.path() / one.name).string());
-    })->UseManualTime()->Unit(benchmark::kMillisecond);
+    benchmark::RegisterBenchmark(
+        ("read:" + one.name).c_str(),
+        [&](benchmark::State& state) { tessera::read(state, one, (folder.path() / one.name).string()); })
+        ->UseManualTime()
+        ->Unit(benchmark::kMillisecond);
   benchmark::RegisterBenchmark("normals", tessera::normals)->Unit(benchmark::kMillisecond);
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;

@@ -1,11 +1,11 @@
 // How long a command takes before and beside its work: whole processes, in turns, each as its caller waits for it.
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <spawn.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -25,7 +25,9 @@ struct Job {
   std::vector<double> wall = {}, processor = {};  // ms, one a round
 };
 
-double milliseconds(const timeval& time) { return 1e3 * static_cast<double>(time.tv_sec) + 1e-3 * static_cast<double>(time.tv_usec); }
+double milliseconds(const timeval& time) {
+  return 1e3 * static_cast<double>(time.tv_sec) + 1e-3 * static_cast<double>(time.tv_usec);
+}
 
 // Without a shell: its start would be measured, too.
 void run(Job& job) {
@@ -53,7 +55,8 @@ void run(Job& job) {
 
 std::string quartiles(std::vector<double> times) {
   std::ranges::sort(times);
-  return fmt::format("{:.1f} ({:.1f} to {:.1f})", times[times.size() / 2], times[times.size() / 4], times[3 * times.size() / 4]);
+  return fmt::format("{:.1f} ({:.1f} to {:.1f})", times[times.size() / 2], times[times.size() / 4],
+                     times[3 * times.size() / 4]);
 }
 
 }  // namespace
@@ -63,7 +66,8 @@ int main(int argc, char** argv) {
   int rounds = 21;
   app.add_option("--rounds", rounds, "of all commands in turns")->check(CLI::Range(1, 10000))->capture_default_str();
   CLI11_PARSE(app, argc, argv);
-  const std::string picture = (std::filesystem::temp_directory_path() / fmt::format("tessera-start-up-{}", getpid())).string();
+  const std::string picture =
+      (std::filesystem::temp_directory_path() / fmt::format("tessera-start-up-{}", getpid())).string();
   const std::string mesh = "render generate:icosphere?level=3";
   std::vector<Job> jobs{{"--version", "--version", "20"},
                         {"an error", "render nosuch.obj", "20"},

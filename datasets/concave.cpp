@@ -12,8 +12,8 @@
 namespace tessera {
 namespace {
 
-/// How deep a corner may be set back, against the length of the outline, before a polygon counts as not convex. Corners on a
-/// straight side are set back by rounding, in float32 files by up to some 10^-7.
+/// How deep a corner may be set back, against the length of the outline, before a polygon counts as not convex. Corners
+/// on a straight side are set back by rounding, in float32 files by up to some 10^-7.
 constexpr double kDepth = 1e-6;
 
 using Loop = std::vector<std::uint32_t>;  // corners by their number in the polygon
@@ -62,9 +62,9 @@ std::vector<std::array<double, 2>> project(const std::vector<glm::dvec3>& points
 
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
 
-/// Earcut leaves out corners on straight lines, doubled corners, and what it cannot cut. All that is left of the polygon then
-/// are regions between its sides and the triangles; a fan for each makes n - 2 triangles in all, since every corner lies on
-/// the outline. Combinatorial: no coordinate is looked at.
+/// Earcut leaves out corners on straight lines, doubled corners, and what it cannot cut. All that is left of the
+/// polygon then are regions between its sides and the triangles; a fan for each makes n - 2 triangles in all, since
+/// every corner lies on the outline. Combinatorial: no coordinate is looked at.
 void fillRest(std::vector<Triangle>& triangles, std::uint32_t n) {
   std::set<Edge> border;  // of the rest, which lies to the left
   for (std::uint32_t i = 0; i < n; ++i) border.insert({i, (i + 1) % n});

@@ -27,10 +27,10 @@ class Faces {
   std::uint64_t short_ = 0;        ///< faces of fewer than three
 };
 
-/// Cuts a polygon that is not convex in the plane of its Newell normal: `fan`, the n - 2 triangles of its fan from the first
-/// corner, is replaced by n - 2 triangles that cover it, corners in the polygon's order. False for a convex polygon, whose fan
-/// stays, and for one with no plane (no area, an index out of range, a coordinate that is not finite), whose fan is as good
-/// as any other.
+/// Cuts a polygon that is not convex in the plane of its Newell normal: `fan`, the n - 2 triangles of its fan from the
+/// first corner, is replaced by n - 2 triangles that cover it, corners in the polygon's order. False for a convex
+/// polygon, whose fan stays, and for one with no plane (no area, an index out of range, a coordinate that is not
+/// finite), whose fan is as good as any other.
 bool cutConcave(const std::vector<glm::dvec3>& positions, std::span<Triangle> fan);
 
 }  // namespace tessera

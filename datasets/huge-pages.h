@@ -1,5 +1,5 @@
-// Memory that is about to be filled for the first time. A page fault for each 4 KiB costs more than reading a binary mesh; with
-// huge pages, where the system has them, there is one for 2 MiB.
+// Memory that is about to be filled for the first time. A page fault for each 4 KiB costs more than reading a binary
+// mesh; with huge pages, where the system has them, there is one for 2 MiB.
 #pragma once
 
 #include <sys/mman.h>

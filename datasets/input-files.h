@@ -7,7 +7,8 @@
 
 namespace tessera {
 
-/// The files that loadInput() reads: the input, and those that a scene names. Nothing is said of what is wrong with them.
+/// The files that loadInput() reads: the input, and those that a scene names. Nothing is said of what is wrong with
+/// them.
 std::vector<std::filesystem::path> inputFiles(const std::string& input);
 
 }  // namespace tessera

@@ -35,10 +35,10 @@ using ReadProgress = std::function<void(std::size_t done, std::size_t total)>;
 Scene loadInput(const std::string& input, std::uint32_t width = 0, std::uint32_t height = 0,
                 const AttributeRequest& attribute = {}, const ReadProgress& progress = {});
 
-/// Positions, triangles in the file's order (a polygon of n corners is n - 2 of them, a fan from its first corner where it is
-/// convex), normals if the file has them, else computed (area-weighted vertex normals). Every face is kept.
-/// An index out of range becomes kBadIndex, which stays out of range when meshes are joined. Coordinates of binary
-/// files may be infinite or NaN.
+/// Positions, triangles in the file's order (a polygon of n corners is n - 2 of them, a fan from its first corner where
+/// it is convex), normals if the file has them, else computed (area-weighted vertex normals). Every face is kept. An
+/// index out of range becomes kBadIndex, which stays out of range when meshes are joined. Coordinates of binary files
+/// may be infinite or NaN.
 inline constexpr std::uint32_t kBadIndex = 0xffffffffu;
 struct Mesh {
   std::vector<glm::dvec3> positions;  ///< as the file has them: of text in double, of binary data in its type

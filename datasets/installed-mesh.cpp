@@ -101,8 +101,8 @@ fs::path installedMesh(std::string_view name) {
       failUsage(fmt::format("mesh:{}: no such mesh; {}'tessera render mesh:' lists the {} there are", name,
                             close.empty() ? "" : fmt::format("did you mean mesh:{}? ", close), names.size()));
     }
-    failUsage(fmt::format("mesh:{}: {} could not be taken out of {}: {}", name, member, archive.string(),
-                          result.output));
+    failUsage(
+        fmt::format("mesh:{}: {} could not be taken out of {}: {}", name, member, archive.string(), result.output));
   }
   try {
     makeOwn(work.path() / member);

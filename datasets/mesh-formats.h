@@ -1,5 +1,5 @@
-// The readers behind readMesh(), one a format. Each throws kUsage with "file:place: what is wrong", and gives the zero vector
-// for a normal that the file does not give.
+// The readers behind readMesh(), one a format. Each throws kUsage with "file:place: what is wrong", and gives the zero
+// vector for a normal that the file does not give.
 #pragma once
 
 #include "datasets/input.h"

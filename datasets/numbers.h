@@ -18,8 +18,8 @@ std::optional<float> toReal(std::string_view word);
 /// The float32 nearest to the word, which is a number whose nearest double is `value`.
 float nearestFloat(std::string_view word, double value);
 
-/// The number at the beginning of [at, end) as most files write it: a sign, digits with a point, a short exponent. True if
-/// it is exact, with `at` moved past it; else toNumber() of the word has the answer.
+/// The number at the beginning of [at, end) as most files write it: a sign, digits with a point, a short exponent. True
+/// if it is exact, with `at` moved past it; else toNumber() of the word has the answer.
 inline bool takeShortDecimal(const char*& at, const char* end, double& value) {
   // Clinger 1990: an integer below 2^53, and a power of ten up to 10^22, are doubles, so one rounding makes the result.
   static constexpr double kPowers[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
@@ -50,8 +50,8 @@ inline bool takeShortDecimal(const char*& at, const char* end, double& value) {
     exponent += down ? -power : power;
   }
   if (digits > (std::uint64_t{1} << 53) || exponent < -22 || exponent > 22) return false;
-  const double magnitude = exponent < 0 ? static_cast<double>(digits) / kPowers[-exponent]
-                                        : static_cast<double>(digits) * kPowers[exponent];
+  const double magnitude =
+      exponent < 0 ? static_cast<double>(digits) / kPowers[-exponent] : static_cast<double>(digits) * kPowers[exponent];
   value = negative ? -magnitude : magnitude;
   at = p;
   return true;

@@ -1,5 +1,5 @@
-// Wavefront OBJ: the lines v, vn and f. The other statements of the format say nothing about triangles, or are curves and
-// surfaces, which are named in a note.
+// Wavefront OBJ: the lines v, vn and f. The other statements of the format say nothing about triangles, or are curves
+// and surfaces, which are named in a note.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -19,9 +19,10 @@ namespace {
 /// What has no triangles (vertex data, points, lines, grouping, display and materials), by the format's specification
 /// (Object Files, version 3.0), with what it says is superseded.
 constexpr std::array<std::string_view, 32> kNoTriangles{
-    "vt",    "vp",     "p",      "l",          "g",          "s",     "mg",    "o",      "bevel", "c_interp", "d_interp",
-    "lod",   "usemtl", "mtllib", "shadow_obj", "trace_obj",  "usemap", "maplib", "cstype", "deg",  "bmat",     "step",
-    "parm",  "trim",   "hole",   "scrv",       "sp",         "end",   "con",   "ctech",  "stech", "res"};
+    "vt",     "vp",       "p",        "l",   "g",      "s",      "mg",         "o",
+    "bevel",  "c_interp", "d_interp", "lod", "usemtl", "mtllib", "shadow_obj", "trace_obj",
+    "usemap", "maplib",   "cstype",   "deg", "bmat",   "step",   "parm",       "trim",
+    "hole",   "scrv",     "sp",       "end", "con",    "ctech",  "stech",      "res"};
 /// What has triangles or curves in a viewer that knows it, and none here.
 constexpr std::array<std::string_view, 9> kLeftOut{"curv", "curv2", "surf", "bsp", "bzp", "cdc", "cdp", "call", "csh"};
 
@@ -100,7 +101,8 @@ class Reader {
       cornerNormals_.push_back({normalsOfCorners_[0], normalsOfCorners_[i - 1], normalsOfCorners_[i]});
   }
 
-  /// "position/texture/normal", the last two left out or empty. Counted from 1, from the last one so far where negative.
+  /// "position/texture/normal", the last two left out or empty. Counted from 1, from the last one so far where
+  /// negative.
   void readCorner() {
     const std::string_view word = in_.word();
     const auto index = [](std::string_view text, std::size_t count, std::uint32_t& result) {
@@ -140,8 +142,8 @@ class Reader {
     normalsOfCorners_.push_back(normal);
   }
 
-  /// OBJ numbers normals apart from positions: a vertex gets the first normal that a face gives it, and for each other one a
-  /// twin behind the file's vertices.
+  /// OBJ numbers normals apart from positions: a vertex gets the first normal that a face gives it, and for each other
+  /// one a twin behind the file's vertices.
   void giveNormals() {
     const std::size_t count = mesh_.positions.size();
     mesh_.normals.resize(count, glm::vec3(0));
@@ -169,7 +171,8 @@ class Reader {
   Mesh mesh_;
   Faces faces_{mesh_};
   std::vector<glm::vec3> normals_;
-  std::vector<Triangle> cornerNormals_;  ///< normals of the triangles' corners; shorter than these, or empty, where none follow
+  std::vector<Triangle>
+      cornerNormals_;  ///< normals of the triangles' corners; shorter than these, or empty, where none follow
   std::vector<std::uint32_t> corners_, normalsOfCorners_;  ///< of the face that is being read
   std::map<std::string_view, std::size_t> leftOut_;
 };

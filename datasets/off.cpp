@@ -16,7 +16,7 @@ struct Header {
   std::size_t begin = 0;  ///< of what follows the count of faces
   std::size_t vertices = 0, faces = 0;
   std::size_t coordinates = 0;  ///< numbers that follow x y z without a colour: a normal, texture coordinates
-  bool colours = false;      ///< and then four
+  bool colours = false;         ///< and then four
 };
 
 /// Reads "OFF" and its prefixes; the counts may follow in the same word, as in many files of ModelNet40.
@@ -37,7 +37,8 @@ void readKeyword(Scanner& in, Header& header) {
   const std::string_view count = word.size() >= end ? word.substr(end) : std::string_view{};
   const bool digits = std::ranges::all_of(count, [](char c) { return c >= '0' && c <= '9'; });
   if (word.find("OFF") != word.npos && digits && !prefix.empty() && prefix.find_first_not_of("4n") == prefix.npos)
-    in.fail(fmt::format("{}: vertices of four or n coordinates are not read; OFF with x, y and z would be right", shown(word)));
+    in.fail(fmt::format("{}: vertices of four or n coordinates are not read; OFF with x, y and z would be right",
+                        shown(word)));
   if (word.find("OFF") == word.npos || !digits || !prefix.empty())
     in.fail(fmt::format("{} where OFF, COFF, NOFF or STOFF would be right", shown(word)));
   in.moveTo(begin + end);
@@ -51,8 +52,8 @@ Header readHeader(const FileText& file) {
   const std::size_t at = in.at();
   if (in.word() == "BINARY") in.fail("binary OFF is not read; OFF as text, or binary PLY, would be right");
   in.moveTo(at);
-  // A vertex takes at least six bytes and a face two, so a count beyond the file's size is wrong; it also bounds what is
-  // set aside.
+  // A vertex takes at least six bytes and a face two, so a count beyond the file's size is wrong; it also bounds what
+  // is set aside.
   const auto most = static_cast<std::int64_t>(file.text.size());
   header.vertices = static_cast<std::size_t>(in.integer("count of vertices", 0, most));
   in.needAhead("the count of faces");
@@ -120,7 +121,8 @@ class Body {
     std::size_t count = 0;
     for (; in_.more(); ++count) in_.number(record);
     if (count < fixed || std::ranges::find(colours, count - fixed) == colours.end())
-      in_.fail(fmt::format("{} numbers follow the {} on its line; a colour has {}", count, record, record == "face" ? "1, 3 or 4" : "3 or 4"));
+      in_.fail(fmt::format("{} numbers follow the {} on its line; a colour has {}", count, record,
+                           record == "face" ? "1, 3 or 4" : "3 or 4"));
   }
 
   Scanner in_;

@@ -1,14 +1,14 @@
-// The numbers behind the header of a PLY file, one after another: as words, or as bytes of either order. Both classes have the
-// same members, so that one walk reads all three formats.
+// The numbers behind the header of a PLY file, one after another: as words, or as bytes of either order. Both classes
+// have the same members, so that one walk reads all three formats.
 #pragma once
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstring>
-#include <bit>
 #include <limits>
 #include <utility>
 
@@ -157,7 +157,8 @@ class PlyBytes {
   [[noreturn]] void fail(std::string_view wrong) { failAt(fmt::format("{}: {}", place_.text(), wrong)); }
   void finish() {
     if (at_ != end_)
-      failAt(fmt::format("{} bytes are left after the last element: a count or a type of the header is wrong", end_ - at_));
+      failAt(fmt::format("{} bytes are left after the last element: a count or a type of the header is wrong",
+                         end_ - at_));
   }
 
  private:

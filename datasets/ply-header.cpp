@@ -14,8 +14,9 @@ namespace {
 const std::map<std::string_view, PlyType>& types() {
   using enum PlyType;
   static const std::map<std::string_view, PlyType> all{
-      {"char", kInt8},   {"int8", kInt8},   {"uchar", kUint8}, {"uint8", kUint8},   {"short", kInt16},   {"int16", kInt16},
-      {"ushort", kUint16}, {"uint16", kUint16}, {"int", kInt32}, {"int32", kInt32}, {"uint", kUint32},   {"uint32", kUint32},
+      {"char", kInt8},   {"int8", kInt8},     {"uchar", kUint8},   {"uint8", kUint8},
+      {"short", kInt16}, {"int16", kInt16},   {"ushort", kUint16}, {"uint16", kUint16},
+      {"int", kInt32},   {"int32", kInt32},   {"uint", kUint32},   {"uint32", kUint32},
       {"float", kFloat}, {"float32", kFloat}, {"double", kDouble}, {"float64", kDouble}};
   return all;
 }
@@ -58,8 +59,8 @@ class HeaderReader {
   void endLine() {
     if (in_.more()) in_.fail(fmt::format("{} where the line's end would be right", shown(in_.word())));
   }
-  /// Bytes of the line's end here. Binary data may begin with a line feed: it belongs to a carriage return before it unless
-  /// the first line, too, ends in a carriage return alone.
+  /// Bytes of the line's end here. Binary data may begin with a line feed: it belongs to a carriage return before it
+  /// unless the first line, too, ends in a carriage return alone.
   std::size_t lineEnd() const {
     const std::string_view left = file_.text.substr(in_.at(), 2);
     return left == "\r\n" && !onlyReturns_ ? 2 : std::min<std::size_t>(left.size(), 1);
@@ -104,7 +105,8 @@ class HeaderReader {
     const bool corners = (property.name == "vertex_indices" || property.name == "vertex_index") &&
                          (element.name == "face" || element.name == "tristrips");
     if (corners && !property.count) in_.fail(fmt::format("{} is not a list", name));
-    if (corners && std::ranges::any_of(element.properties, [&](const PlyProperty& p) { return isCornerList(element, p); }))
+    if (corners &&
+        std::ranges::any_of(element.properties, [&](const PlyProperty& p) { return isCornerList(element, p); }))
       in_.fail("two lists of corners");
     if (element.name == "vertex" && property.count && (name == "'x'" || name == "'y'" || name == "'z'"))
       in_.fail(fmt::format("{} of a vertex is a list; one number would be right", name));

@@ -39,8 +39,8 @@ struct PlyHeader {
   const PlyElement* find(std::string_view element) const;
 };
 
-/// Anything in the header that the format does not allow is refused, and so is a mesh that has no x, y and z or whose faces
-/// have no list of corners.
+/// Anything in the header that the format does not allow is refused, and so is a mesh that has no x, y and z or whose
+/// faces have no list of corners.
 PlyHeader readPlyHeader(const FileText& file);
 
 /// Is this element's list of this name one of corners? Faces have one, and triangle strips.

@@ -92,7 +92,9 @@ class Reader {
     const bool triangles = corners_.property && element.properties.size() == 1 && !corners_.strips;
     for (place_.row = 0; place_.row < element.count; ++place_.row) {
       if constexpr (requires { data_.takeBytes(0); })
-        if (triangles) place_.row += data_.takeTriangles(*corners_.property, element.count - place_.row, header_.find("vertex")->count, mesh_.triangles);
+        if (triangles)
+          place_.row += data_.takeTriangles(*corners_.property, element.count - place_.row,
+                                            header_.find("vertex")->count, mesh_.triangles);
       if (place_.row == element.count) break;
       for (std::size_t i = 0; i < element.properties.size(); ++i) {
         const PlyProperty& property = element.properties[i];
@@ -157,8 +159,8 @@ class Reader {
     std::uint64_t vertex = 0;
     for (float& value : mesh_.attribute) {
       if (!(value >= 0 && value <= kMostMapped))
-        failUsage(fmt::format("{}: {} of vertex {}: {} cannot be mapped to a range; integers of 0 to {} can", file_.name,
-                              property.name, vertex, value, kMostMapped));
+        failUsage(fmt::format("{}: {} of vertex {}: {} cannot be mapped to a range; integers of 0 to {} can",
+                              file_.name, property.name, vertex, value, kMostMapped));
       value = static_cast<float>(least + (most - least) * (static_cast<double>(value) / kMostMapped));
       ++vertex;
     }

@@ -39,7 +39,8 @@ Scanner::Scanner(const FileText& file, Syntax syntax)
 
 void Scanner::report() {
   if (file_.progress) file_.progress(at(), file_.text.size());
-  report_ += std::min(kReportEvery + at() - static_cast<std::size_t>(report_ - begin_), static_cast<std::size_t>(end_ - report_));
+  report_ += std::min(kReportEvery + at() - static_cast<std::size_t>(report_ - begin_),
+                      static_cast<std::size_t>(end_ - report_));
 }
 
 std::size_t Scanner::continued(const char* p) const {

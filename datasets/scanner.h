@@ -1,5 +1,5 @@
-// Walking through the words and lines of a text, with the place at hand for messages. Every text format of this folder is
-// read by it: a line ends with LF, CR or CR LF, in any mixture.
+// Walking through the words and lines of a text, with the place at hand for messages. Every text format of this folder
+// is read by it: a line ends with LF, CR or CR LF, in any mixture.
 #pragma once
 
 #include <array>
@@ -23,7 +23,7 @@ class Scanner {
  public:
   enum class Syntax : std::uint8_t {
     kPlain,
-    kHash,            ///< what follows a '#' on a line is a comment
+    kHash,             ///< what follows a '#' on a line is a comment
     kHashAndBackslash  ///< and a line that ends in a backslash goes on in the next one
   };
   Scanner(const FileText& file, Syntax syntax);
@@ -41,10 +41,10 @@ class Scanner {
   /// The word here, which must be there: more() or ahead() was true. The number functions take the word as a number;
   /// `what` is its name in messages.
   std::string_view word();
-  double number(std::string_view what);                ///< infinite and NaN, too
-  double real(std::string_view what);                  ///< finite, in float32, too
-  float single(std::string_view what);                 ///< a float32, infinite and NaN, too
-  std::int64_t integer(std::string_view what,          ///< of this range; it may be written as a real, 3.0
+  double number(std::string_view what);        ///< infinite and NaN, too
+  double real(std::string_view what);          ///< finite, in float32, too
+  float single(std::string_view what);         ///< a float32, infinite and NaN, too
+  std::int64_t integer(std::string_view what,  ///< of this range; it may be written as a real, 3.0
                        std::int64_t least = INT64_MIN, std::int64_t most = INT64_MAX);
   /// The next word of this line; a message if there is none.
   std::string_view wordInLine(std::string_view what);

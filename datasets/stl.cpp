@@ -1,5 +1,5 @@
-// STL, text or binary: facets in order; corners with the same bits share a vertex. The normals of the file are not taken:
-// they belong to facets.
+// STL, text or binary: facets in order; corners with the same bits share a vertex. The normals of the file are not
+// taken: they belong to facets.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -37,8 +37,8 @@ Mesh readBinary(const FileText& file) {
   std::array<std::array<Vertices::Key, 3>, kAhead> corners;
   std::array<std::array<std::uint64_t, 3>, kAhead> hashes;
   for (std::size_t i = 0; i < count + kAhead; ++i) {
-    auto &corner = corners[i % kAhead];
-    auto &hash = hashes[i % kAhead];
+    auto& corner = corners[i % kAhead];
+    auto& hash = hashes[i % kAhead];
     for (std::size_t k = 0; i >= kAhead && k < 3; ++k) {
       const auto [number, fresh] = vertices.add(corner[k], hash[k]);
       if (fresh) mesh.positions.emplace_back(std::bit_cast<glm::vec3>(corner[k]));
@@ -149,7 +149,8 @@ Mesh readStl(const FileText& file) {
   if (lowerCase(text.substr(first, 5)) == "solid" && text.find('\0') == text.npos)
     return TextReader({file.name, text, file.progress}).read();
   if (file.text.size() < kHeader)
-    failUsage(fmt::format("{}: neither STL text (which begins with 'solid') nor binary STL (84 bytes or more)", file.name));
+    failUsage(
+        fmt::format("{}: neither STL text (which begins with 'solid') nor binary STL (84 bytes or more)", file.name));
   failUsage(fmt::format(
       "{}: neither STL text (which begins with 'solid') nor binary STL: {} facets would take {} bytes, the file has {}",
       file.name, countOf(file.text), binarySize, file.text.size()));

@@ -52,8 +52,8 @@ std::string readFile(const std::filesystem::path& path) { return std::string(Fil
 
 std::string_view plainText(const std::string& name, std::string_view text) {
   using namespace std::string_view_literals;
-  const bool wide = text.starts_with("\xff\xfe"sv) || text.starts_with("\xfe\xff"sv) ||
-                    text.starts_with("\0\0\xfe\xff"sv);
+  const bool wide =
+      text.starts_with("\xff\xfe"sv) || text.starts_with("\xfe\xff"sv) || text.starts_with("\0\0\xfe\xff"sv);
   if (wide) failUsage(fmt::format("{}: is UTF-16 or UTF-32; UTF-8 would be right", name));
   return text.substr(text.starts_with("\xef\xbb\xbf"sv) ? 3 : 0);
 }

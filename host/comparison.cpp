@@ -138,10 +138,10 @@ glm::vec3 linear(int r, int g, int b) {
 
 struct Comparison::State {
   Tolerances tolerances;
-  Difference sums;            // of what any rows held
+  Difference sums;  // of what any rows held
   bool idsKnown = true;
   double squares = 0, attributeSquares = 0;
-  std::uint64_t values = 0;   // pixels that have one in both
+  std::uint64_t values = 0;  // pixels that have one in both
   std::uint32_t rows = 0;
   Framebuffer firstA, firstB;
 
@@ -149,8 +149,8 @@ struct Comparison::State {
   void addDistances(const Pair& pair, const Framebuffer& a, const Framebuffer& b, std::size_t k) {
     if (pair.hasDepth() && !pair.coverageDiffers(k) && differ(a.depth[k], b.depth[k], {})) {
       const double distance = apart(a.depth[k], b.depth[k]);
-      sums.depthMaxAbs = std::max(*sums.depthMaxAbs,
-                                  std::isnan(distance) ? std::numeric_limits<double>::infinity() : distance);
+      sums.depthMaxAbs =
+          std::max(*sums.depthMaxAbs, std::isnan(distance) ? std::numeric_limits<double>::infinity() : distance);
       sums.depthMaxUlp = std::max(*sums.depthMaxUlp, stepsApart(a.depth[k], b.depth[k]));
     }
     if (pair.hasAttribute() && !std::isnan(a.attribute[k]) && !std::isnan(b.attribute[k])) {
@@ -225,7 +225,8 @@ Difference Comparison::difference() const {
   if (!s.idsKnown) result.id.reset();
   if (result.attributeRms && s.values != 0)
     result.attributeRms = std::sqrt(s.attributeSquares / static_cast<double>(s.values));
-  if (result.psnr) result.psnr = -10 * std::log10(s.squares / (3 * static_cast<double>(result.pixels)));  // log10(0) is -infinity
+  if (result.psnr)
+    result.psnr = -10 * std::log10(s.squares / (3 * static_cast<double>(result.pixels)));  // log10(0) is -infinity
   return result;
 }
 

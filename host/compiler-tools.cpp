@@ -10,8 +10,8 @@
 
 #include "host/error.h"
 #include "host/files.h"
-#include "host/own-files.h"
 #include "host/home.h"
+#include "host/own-files.h"
 #include "host/spirv.h"
 #include "host/subprocess.h"
 
@@ -66,7 +66,7 @@ std::string checkSlangc(const fs::path& slangc) {
   writeInto(source, kProbeModule);
   const ProcessResult result = runProcess({slangc.string(), source.string(), "-target", "spirv", "-O1", "-fp-mode",
                                            "precise", "-entry", "probe", "-stage", "compute", "-o", module.string()},
-                                         work.path());
+                                          work.path());
   if (!result.ok() || !fs::exists(module)) checkWritten(work.path(), result.output);
   if (!result.ok() || !fs::exists(module)) fail("cannot compile a small kernel to SPIR-V: " + firstLine(result.output));
   std::vector<std::string> violations;

@@ -44,8 +44,8 @@ const std::vector<EmitTarget>& emitTargets() {
 const EmitTarget& emitTarget(std::string_view name) {
   const auto found = std::ranges::find(emitTargets(), name, &EmitTarget::name);
   if (found != emitTargets().end()) return *found;
-  failUsage(fmt::format("--emit {}: no such target; {}", name,
-                        whatThereIs(name, namesOf(emitTargets(), &EmitTarget::name))));
+  failUsage(
+      fmt::format("--emit {}: no such target; {}", name, whatThereIs(name, namesOf(emitTargets(), &EmitTarget::name))));
 }
 
 Emitted emitKernel(KernelCache& cache, const KernelRequest& request, const EmitTarget& target) {

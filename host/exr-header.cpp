@@ -24,7 +24,8 @@ constexpr std::uint64_t kLeastLimit = std::uint64_t{512} << 20;
 constexpr std::uint64_t kMostPacked = 1100;
 constexpr std::int64_t kFarthest = 1 << 24;  // of a window from 0, so that no sum in a library overflows
 constexpr std::size_t kLongestName = 255;
-// Rows that are packed together, by the number of the compression: none, rle, zips, zip, piz, pxr24, b44, b44a, dwaa, dwab.
+// Rows that are packed together, by the number of the compression: none, rle, zips, zip, piz, pxr24, b44, b44a, dwaa,
+// dwab.
 constexpr std::array<std::uint64_t, 10> kRowsOfChunk{1, 1, 1, 16, 32, 16, 32, 32, 32, 256};
 
 struct Box {
@@ -54,8 +55,8 @@ class Header {
     const auto extent = [](std::int64_t pixels) { return pixels >= 1 && pixels <= kMaxExtent; };
     for (const auto& [box, what] : {std::pair{*data_, ""}, {*display_, " in its display window"}}) {
       if (!extent(box.width()) || !extent(box.height()))
-        failUsage(fmt::format("{}: is {} x {} pixels{}, it should be 1 x 1 to {} x {}", name_, box.width(), box.height(),
-                              what, kMaxExtent, kMaxExtent));
+        failUsage(fmt::format("{}: is {} x {} pixels{}, it should be 1 x 1 to {} x {}", name_, box.width(),
+                              box.height(), what, kMaxExtent, kMaxExtent));
       for (const std::int64_t at : box.at)
         if (at < -kFarthest || at > kFarthest)
           failUsage(fmt::format("{}: its pixels begin at ({}, {}), they should begin within {} of 0", name_, box.at[0],
@@ -66,9 +67,10 @@ class Header {
     const std::uint64_t asked = std::max(height, 8 * rowsOfChunk_) * width * pixelBytes_;
     const std::uint64_t allowed = limit ? limit : std::max(kLeastLimit, kMostPacked * bytes_);
     if (asked > allowed)
-      failUsage(fmt::format("{}: {} x {} pixels of {} channels unpack to {} MiB from a file of {} KiB, the limit is {} MiB; "
-                            "--max-unpacked raises it",
-                            name_, width, height, channels_, (asked >> 20) + 1, (bytes_ >> 10) + 1, allowed >> 20));
+      failUsage(
+          fmt::format("{}: {} x {} pixels of {} channels unpack to {} MiB from a file of {} KiB, the limit is {} MiB; "
+                      "--max-unpacked raises it",
+                      name_, width, height, channels_, (asked >> 20) + 1, (bytes_ >> 10) + 1, allowed >> 20));
   }
 
  private:
@@ -113,7 +115,8 @@ class Header {
     if (attribute == "type") {
       std::string kind(static_cast<std::size_t>(size), 0);
       read(kind.data(), kind.size());
-      if (kind != "scanlineimage") failUsage(fmt::format("{}: is of type '{}', it should be scanlineimage", name_, kind.substr(0, 40)));
+      if (kind != "scanlineimage")
+        failUsage(fmt::format("{}: is of type '{}', it should be scanlineimage", name_, kind.substr(0, 40)));
     }
     file_.seekg(end);
   }

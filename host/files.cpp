@@ -20,10 +20,11 @@ namespace fs = std::filesystem;
 namespace {
 
 [[noreturn]] void failFolder(const fs::path& folder, const std::string& cause) {
-  throw WriteError(fmt::format(
-      "{}: cannot be written: {}; room there, or another folder (TMPDIR for temporary files, TESSERA_CACHE for compiled "
-      "kernels), would do",
-      folder.string(), cause));
+  throw WriteError(
+      fmt::format("{}: cannot be written: {}; room there, or another folder (TMPDIR for temporary files, TESSERA_CACHE "
+                  "for compiled "
+                  "kernels), would do",
+                  folder.string(), cause));
 }
 
 std::string faultOf(const fs::path& folder) try {

@@ -75,7 +75,8 @@ class WriteError : public Error {
   explicit WriteError(const std::string& line) : Error(ExitCode::kFailure, line) {}
 };
 
-/// A new folder, removed with all that is in it at the end. Throws WriteError with folder and cause if it cannot be made.
+/// A new folder, removed with all that is in it at the end. Throws WriteError with folder and cause if it cannot be
+/// made.
 class TemporaryFolder {
  public:
   TemporaryFolder(const std::filesystem::path& parent, std::string_view stem);

@@ -33,13 +33,15 @@ Loaded load() {
   if (entry) {
     result.module = reinterpret_cast<const imageio::Module* (*)()>(entry)();
     if (std::string_view(result.module->version) != TESSERA_MODULE_VERSION) {
-      result.why = fmt::format("{} is of version {}; {} would be right", kFile, result.module->version, TESSERA_MODULE_VERSION);
+      result.why =
+          fmt::format("{} is of version {}; {} would be right", kFile, result.module->version, TESSERA_MODULE_VERSION);
       result.module = nullptr;
     }
   } else {
     const char* const why = dlerror();
-    result.why = fmt::format("{}; {} should lie where Tessera was built or installed, and Debian's libopenimageio2.4 be there",
-                             why ? why : kFile, kFile);
+    result.why =
+        fmt::format("{}; {} should lie where Tessera was built or installed, and Debian's libopenimageio2.4 be there",
+                    why ? why : kFile, kFile);
   }
   result.milliseconds = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   return result;

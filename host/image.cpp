@@ -76,9 +76,10 @@ Format formatOf(const std::string& name) {
   const std::string extension = extensionOf(path);
   if (extension == ".png") return Format::kPng;
   if (extension == ".exr") return Format::kExr;
-  failUsage(fmt::format("{}: unknown image format '{}'; the name should end in .png or .exr, or begin with png: or exr: "
-                        "as in png:-",
-                        name, extension));
+  failUsage(
+      fmt::format("{}: unknown image format '{}'; the name should end in .png or .exr, or begin with png: or exr: "
+                  "as in png:-",
+                  name, extension));
 }
 
 }  // namespace
@@ -173,8 +174,7 @@ struct ImageReader::State {
   bool has(const char* channel, std::string_view type) const {
     for (const auto& c : file->header().channels) {
       if (c.name != channel) continue;
-      if (c.type != type)
-        failUsage(fmt::format("{}: channel {} is {}, it should be {}", name, channel, c.type, type));
+      if (c.type != type) failUsage(fmt::format("{}: channel {} is {}, it should be {}", name, channel, c.type, type));
       return true;
     }
     return false;

@@ -23,8 +23,8 @@ using ImageFacts = std::vector<std::pair<std::string, std::string>>;
 /// Linear colours that are made as they are written, from the top down.
 using ColourRows = std::function<void(std::uint32_t begin, std::uint32_t end, glm::vec3* out)>;
 
-/// Where one image goes, made before the work and kept. Its name ends in .png or .exr; a name that does not say (a pipe,
-/// a device, - for stdout) has the format before it, as in png:- and exr:/dev/fd/3.
+/// Where one image goes, made before the work and kept. Its name ends in .png or .exr; a name that does not say (a
+/// pipe, a device, - for stdout) has the format before it, as in png:- and exr:/dev/fd/3.
 ///
 /// .png: 8-bit sRGB of `colour` if there is any, else of the attribute (dark blue is the least of `range`, light yellow
 /// the most; the span of this frame where no range is given), else of the hits (a logarithmic heat map, dark blue 1 to
@@ -51,8 +51,8 @@ class ImageOutput {
 void writeImage(const std::filesystem::path& path, const Framebuffer& frame,
                 const std::optional<ValueRange>& range = {}, const ImageFacts& facts = {});
 
-/// An .exr that writeImage wrote, a band of rows at a time. Throws kUsage with one line when it is missing, broken, holds
-/// no such channels, or takes more than `limit` bytes unpacked (0: see exr-header.h).
+/// An .exr that writeImage wrote, a band of rows at a time. Throws kUsage with one line when it is missing, broken,
+/// holds no such channels, or takes more than `limit` bytes unpacked (0: see exr-header.h).
 class ImageReader {
  public:
   explicit ImageReader(const std::filesystem::path& path, std::uint64_t limit = 0);

@@ -45,8 +45,9 @@ class KernelCache {
         {};  ///< default: $TESSERA_SLANG_SOURCES, else the installed or source folder known at build time
     bool boundsChecks = false;       ///< kCpp: compile Slang's bounds checks in (asserts)
     std::string extraCxxFlags = {};  ///< kCpp: separated by spaces, after those that the build gave (its sanitizers)
-    KernelFiles files = {};  ///< stages that run these in place of their own kernels, whatever renders with this cache.
-                             ///< They are native code; the command line checks their indices first, the library does not
+    KernelFiles files =
+        {};  ///< stages that run these in place of their own kernels, whatever renders with this cache.
+             ///< They are native code; the command line checks their indices first, the library does not
   };
   struct Statistics {
     std::size_t hits = 0, compiled = 0, rebuilt = 0;

@@ -39,10 +39,9 @@ void checkApart(const std::vector<fs::path>& outputs, const std::vector<fs::path
     const std::string identity = identityOf(place);
     if (identity.empty()) continue;
     if (const auto found = read.find(identity); found != read.end())
-      failUsage(found->second == output
-                    ? fmt::format("{}: is an input; another name would keep it", output.string())
-                    : fmt::format("{}: is the input {}; another name would keep it", output.string(),
-                                  found->second.string()));
+      failUsage(found->second == output ? fmt::format("{}: is an input; another name would keep it", output.string())
+                                        : fmt::format("{}: is the input {}; another name would keep it",
+                                                      output.string(), found->second.string()));
     if (const auto [found, isNew] = written.emplace(identity, output); !isNew)
       failUsage(found->second == output
                     ? fmt::format("{}: is named twice as an output; each needs a name of its own", output.string())

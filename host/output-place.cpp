@@ -128,7 +128,8 @@ int openStream(const OutputPlace& place) {
     if (errno == EINTR) continue;
     if (!pipe || errno != ENXIO) refuse(place.name, fmt::format("cannot be opened: {}", causeOf(errno)));
     if (std::chrono::steady_clock::now() > end)
-      refuse(place.name, fmt::format("is a pipe that nothing has read for {} s; start its reader first", kReaderTime.count()));
+      refuse(place.name,
+             fmt::format("is a pipe that nothing has read for {} s; start its reader first", kReaderTime.count()));
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
 }

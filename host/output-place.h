@@ -12,9 +12,9 @@ namespace tessera {
 
 /// What a name leads to through symbolic links. Made, it has passed every check that needs no writing.
 struct OutputPlace {
-  std::filesystem::path name;  ///< as it was given, for messages
-  std::filesystem::path file;  ///< where its links end; nothing for a descriptor
-  int descriptor = -1;         ///< "-", /dev/stdout, /dev/fd/N, /proc/self/fd/N: this process's, already open
+  std::filesystem::path name;        ///< as it was given, for messages
+  std::filesystem::path file;        ///< where its links end; nothing for a descriptor
+  int descriptor = -1;               ///< "-", /dev/stdout, /dev/fd/N, /proc/self/fd/N: this process's, already open
   std::optional<struct stat> there;  ///< what is there now
 
   /// A file, there already or not yet: written beside and renamed. Else bytes are written to what is there.

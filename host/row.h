@@ -64,8 +64,8 @@ std::uint64_t coveredPixels(const Framebuffer& frame);
 /// The row's word for an error: "overflow", "unsupported" or "error".
 std::string statusOf(ExitCode code);
 
-/// The row's `error` of a difference alone: an object in JSON, of numbers, and null for what there was not to compare or
-/// is not finite.
+/// The row's `error` of a difference alone: an object in JSON, of numbers, and null for what there was not to compare
+/// or is not finite.
 std::string differenceText(const Difference& difference);
 /// Now, as rows have it: "2026-11-23T09:26:00Z".
 std::string utcText();

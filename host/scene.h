@@ -33,7 +33,7 @@ struct Scene {
   /// What loadInput() took from the input's coordinates before it rounded them; 0 for a scene near 0. A frame depends
   /// on positions and matrix alone.
   glm::dvec3 origin{0};
-  std::vector<std::string> notes;    ///< one line each: what a user would not expect of the input
+  std::vector<std::string> notes;  ///< one line each: what a user would not expect of the input
 
   std::size_t vertexCount() const { return positions.empty() ? clip.size() : positions.size(); }
 };

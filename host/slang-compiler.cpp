@@ -18,8 +18,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Slang's prelude asks these macros at every index into a buffer or an array, in a member function of it (`data` is the
-/// buffer's). Throwing crosses the entry point to the dispatch, with three numbers: index, count, address of the buffer.
+/// Slang's prelude asks these macros at every index into a buffer or an array, in a member function of it (`data` is
+/// the buffer's). Throwing crosses the entry point to the dispatch, with three numbers: index, count, address of the
+/// buffer.
 constexpr const char* kBoundsChecks = R"(#include <stdexcept>
 #include <string>
 [[noreturn]] static void tesseraOutOfBounds(size_t index, size_t count, const void* data)
@@ -226,7 +227,7 @@ KernelInterface compileKernel(const KernelRequest& request, const CompileSetting
 }
 
 Written writtenBySlang(const KernelRequest& request, const std::string& target, const ToolInfo& slangc,
-                           const fs::path& slangSources) {
+                       const fs::path& slangSources) {
   const TemporaryFolder work(temporaryRoot(), "tessera-emit");
   const fs::path made = work.path() / "made", reflection = work.path() / "reflection.json";
   const bool cpp = request.route == Route::kCpp;

@@ -38,12 +38,12 @@ KernelInterface compileKernel(const KernelRequest& request, const CompileSetting
                               const std::map<std::filesystem::path, std::string>& sources,
                               const std::filesystem::path& work);
 
-/// What slangc writes of a Slang kernel for another target; of C++ with what stands ahead of it. Throws as compileKernel()
-/// does.
+/// What slangc writes of a Slang kernel for another target; of C++ with what stands ahead of it. Throws as
+/// compileKernel() does.
 struct Written {
   std::string text, reflection;  ///< the latter as JSON
 };
 Written writtenBySlang(const KernelRequest& request, const std::string& target, const ToolInfo& slangc,
-                           const std::filesystem::path& slangSources);
+                       const std::filesystem::path& slangSources);
 
 }  // namespace tessera

@@ -23,7 +23,8 @@ std::vector<char*> childEnvironment(std::string& temporary) {
   static char locale[] = "LC_ALL=C";
   std::vector<char*> variables;
   const auto stays = [&](const char* variable) {
-    return std::strncmp(variable, "LC_ALL=", 7) != 0 && (temporary.empty() || std::strncmp(variable, "TMPDIR=", 7) != 0);
+    return std::strncmp(variable, "LC_ALL=", 7) != 0 &&
+           (temporary.empty() || std::strncmp(variable, "TMPDIR=", 7) != 0);
   };
   for (char** variable = environ; *variable != nullptr; ++variable)
     if (stays(*variable)) variables.push_back(*variable);

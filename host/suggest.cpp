@@ -50,7 +50,8 @@ std::string nearest(std::string_view typed, const std::vector<std::string>& know
     if (count <= std::max(word.size(), candidate.size()) / 3 && count < fewest) best = name, fewest = count;
   }
   if (!best.empty() || word.size() < 2) return best;
-  const auto begun = std::ranges::find_if(known, [&](const std::string& name) { return plain(name).starts_with(word); });
+  const auto begun =
+      std::ranges::find_if(known, [&](const std::string& name) { return plain(name).starts_with(word); });
   return begun == known.end() ? "" : *begun;
 }
 

@@ -26,8 +26,8 @@ std::pair<std::size_t, std::uint32_t> characterAt(std::string_view text, std::si
 
 bool isObeyed(std::uint32_t c) {
   if (c == '\n' || c == '\t') return false;
-  return c < 0x20 || (c >= 0x7f && c < 0xa0)                        // C0, DEL, C1
-         || c == 0x61c || c == 0x200e || c == 0x200f                // marks of direction
+  return c < 0x20 || (c >= 0x7f && c < 0xa0)                              // C0, DEL, C1
+         || c == 0x61c || c == 0x200e || c == 0x200f                      // marks of direction
          || (c >= 0x2028 && c <= 0x202e) || (c >= 0x2066 && c <= 0x2069)  // ends of lines, overrides, isolates
          || c == 0xfeff;
 }

@@ -13,7 +13,8 @@
 namespace tessera {
 
 /// The text with each control character but the line's end and the tab, each sign that turns the direction of writing,
-/// and each byte that is not UTF-8 written out: "\u001b", "\u202e", "\xff". Text of JSON stays JSON with the same values.
+/// and each byte that is not UTF-8 written out: "\u001b", "\u202e", "\xff". Text of JSON stays JSON with the same
+/// values.
 std::string visible(std::string_view text);
 
 /// Prints to stdout or stderr what people read. Throws std::system_error where stdout takes no more.

@@ -37,9 +37,8 @@ std::string checkedValue(const TomlTable& table, const Axis& axis, const toml::n
     return std::to_string(*number);
   }
   if (std::ranges::find(axis.values, text, &AxisValue::name) == axis.values.end())
-    table.refuse(
-        axis.name, node,
-        fmt::format("no value '{}'; {}", text, whatThereIs(text, namesOf(axis.values, &AxisValue::name))));
+    table.refuse(axis.name, node,
+                 fmt::format("no value '{}'; {}", text, whatThereIs(text, namesOf(axis.values, &AxisValue::name))));
   return text;
 }
 

@@ -45,8 +45,8 @@ std::string cellName(const Sweep& sweep, const Cell& cell);
 /// The `tessera render` line, for sh in the sweep's folder, that renders what the cell does, as often.
 std::string cellCommand(const Sweep& sweep, const Cell& cell);
 
-/// Where the sweep names no reference, that of a group is its first cell that is not refused; the twin keeps its number,
-/// so that cells have the same on each machine. Whether there was anything to change.
+/// Where the sweep names no reference, that of a group is its first cell that is not refused; the twin keeps its
+/// number, so that cells have the same on each machine. Whether there was anything to change.
 bool chooseReferences(const Sweep& sweep, std::vector<Cell>& cells, const std::function<bool(std::size_t)>& refused);
 /// Makes this cell its group's reference.
 void makeReference(std::vector<Cell>& cells, std::size_t number);

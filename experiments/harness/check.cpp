@@ -84,11 +84,12 @@ void writePicture(Run& run, std::size_t number, const Framebuffer& image, const 
     ImageFacts facts = factsOf(run);
     facts.emplace_back("shows", "differences from the oracle");
     ImageOutput(tools.folder / run.picture)
-        .write(image.width, image.height,
-               [&](std::uint32_t begin, std::uint32_t end, glm::vec3* out) {
-                 paintDifference(expected, image, begin, end, out);
-               },
-               facts);
+        .write(
+            image.width, image.height,
+            [&](std::uint32_t begin, std::uint32_t end, glm::vec3* out) {
+              paintDifference(expected, image, begin, end, out);
+            },
+            facts);
   } catch (const std::exception& error) {
     throw PictureFailed(fmt::format("{}: could not be written: {}; --resume goes on once there is room",
                                     (tools.folder / run.picture).string(), error.what()));

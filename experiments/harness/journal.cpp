@@ -25,7 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::chrono::seconds kSyncInterval{5};  // what a crash of the machine, not of the program, may cost
-constexpr int kOldestRowSchema = 2;               // version 3 has null where that had a 0 for what an image does not hold
+constexpr int kOldestRowSchema = 2;  // version 3 has null where that had a 0 for what an image does not hold
 constexpr std::array kStatuses{"ok", "overflow", "unsupported", "timeout", "error"};
 
 /// Numbers, or null where there was nothing to count.
@@ -140,7 +140,8 @@ fs::path journalOf(const fs::path& folder) { return folder / "journal.jsonl"; }
 
 Record readJournal(const fs::path& folder) {
   const fs::path path = journalOf(folder);
-  if (!fs::is_regular_file(path)) failUsage(fmt::format("{}: is no file; a sweep's journal would be right", path.string()));
+  if (!fs::is_regular_file(path))
+    failUsage(fmt::format("{}: is no file; a sweep's journal would be right", path.string()));
   const std::string text = readFile(path);
   Record record;
   std::size_t number = 1;

@@ -1,7 +1,8 @@
 // journal.jsonl, the one record of a sweep: a line for its head, each session, each cell that was checked or ended,
 // each sample. Rows are made of it and of nothing else.
 //
-//   head     schema_version, sweep {title, question, sha256}, quick, rounds, devices, repeats, warm_up, time_limit, seed, jobs
+//   head     schema_version, sweep {title, question, sha256}, quick, rounds, devices, repeats, warm_up, time_limit,
+//   seed, jobs
 //            (names), cells: cell, name, command and `sweep` as rows have them
 //   session  session (0, or how often the sweep had been resumed), utc, load (averages over 1, 5, 15 minutes), jobs:
 //            the provenance of each that had something left to do

@@ -33,7 +33,8 @@ WorkerCell cellOf(const Json& json) {
                   .threads = wholeAt<unsigned>(json, "threads"),
                   .asked = variantOf(objectAt(json, "asked")),
                   .kernels = {}};
-  for (const auto& [stage, file] : objectAt(json, "kernels").items()) cell.kernels[stage] = textAt(objectAt(json, "kernels"), stage.c_str());
+  for (const auto& [stage, file] : objectAt(json, "kernels").items())
+    cell.kernels[stage] = textAt(objectAt(json, "kernels"), stage.c_str());
   return cell;
 }
 

@@ -125,9 +125,10 @@ void checkRowsKept(const std::filesystem::path& folder, const Record& record) {
       const auto found = samples.find(textAt(row, "run_id"));
       const std::size_t had = row.contains("time_ns") ? listAt(objectAt(row, "time_ns"), "samples").size() : 0;
       if (found != samples.end() && had <= found->second) continue;
-      failUsage(fmt::format("{}:{}: {} the journal beside it has not; nothing was written: take the journal away to keep "
-                            "these rows, or the rows to make them anew from the journal",
-                            path.string(), number, found == samples.end() ? "a row that" : "samples that"));
+      failUsage(
+          fmt::format("{}:{}: {} the journal beside it has not; nothing was written: take the journal away to keep "
+                      "these rows, or the rows to make them anew from the journal",
+                      path.string(), number, found == samples.end() ? "a row that" : "samples that"));
     } catch (const WrongField&) {  // no row is lost with it
     }
   }

@@ -231,11 +231,13 @@ bool liesIn(const fs::path& folder, const fs::path& file) {
 }
 
 /// A kernel is native code. What lies beside the sweep came with it; what lies elsewhere was put there by another.
-std::string refusalOf(const TomlTable& table, const std::string& stage, const toml::node& element, const fs::path& file) try {
-  table.refuse(stage, element,
-               fmt::format("{}: lies outside the sweep's folder, and a kernel is native code that runs with your rights; "
-                           "--allow-kernels runs it, and so would a copy beside the sweep",
-                           file.string()));
+std::string refusalOf(const TomlTable& table, const std::string& stage, const toml::node& element,
+                      const fs::path& file) try {
+  table.refuse(
+      stage, element,
+      fmt::format("{}: lies outside the sweep's folder, and a kernel is native code that runs with your rights; "
+                  "--allow-kernels runs it, and so would a copy beside the sweep",
+                  file.string()));
 } catch (const Error& error) {
   return error.what();
 }
@@ -311,8 +313,7 @@ Variant readTruth(const TomlTable& top) {
       names.push_back(axis.name);  // the oracle has no colours
   for (const TomlTable::Entry& entry : table.entries())
     if (std::ranges::find(names, entry.key.str()) == names.end())
-      table.refuseKey(entry.key,
-                      fmt::format("does not change what is right; {}", whatThereIs(entry.key.str(), names)));
+      table.refuseKey(entry.key, fmt::format("does not change what is right; {}", whatThereIs(entry.key.str(), names)));
   return readVariant(table);
 }
 

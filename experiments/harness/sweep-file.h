@@ -61,7 +61,8 @@ struct Sweep {
   Variant set;                       ///< axes that are the same in every cell
   std::vector<SweptAxis> axes;
   std::vector<SweptKernel> kernels;
-  std::string foreignKernel;  ///< why they are not run unasked: the first that lies outside the file's folder; "" if none
+  std::string
+      foreignKernel;  ///< why they are not run unasked: the first that lies outside the file's folder; "" if none
   std::vector<LeaveOut> leaveOut;
   std::vector<Variant> also;  ///< axes of one more cell each, outside the product; with `set`
   Variant reference;          ///< the first cell that has these is the one whose time the others are divided by

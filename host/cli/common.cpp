@@ -19,8 +19,8 @@
 #include "host/files.h"
 #include "host/stages.h"
 #include "host/suggest.h"
-#include "host/user-kernel.h"
 #include "host/terminal.h"
+#include "host/user-kernel.h"
 #include "host/vulkan/vulkan-device.h"
 
 namespace tessera::cli {
@@ -45,10 +45,11 @@ Size parseSize(const std::string& text) {
   }
   const auto inRange = [](std::uint32_t extent) { return extent >= 1 && extent <= kMaxExtent; };
   if (!good || !inRange(size.width) || !inRange(size.height))
-    failUsage(fmt::format(
-        "--size {}: not a raster size; WIDTHxHEIGHT, or one number for a square, of 1 to {} pixels each would be right, "
-        "e.g. 2048x1024",
-        text, kMaxExtent));
+    failUsage(
+        fmt::format("--size {}: not a raster size; WIDTHxHEIGHT, or one number for a square, of 1 to {} pixels each "
+                    "would be right, "
+                    "e.g. 2048x1024",
+                    text, kMaxExtent));
   return size;
 }
 
@@ -88,16 +89,18 @@ void addInput(CLI::App& app, Options& options) {
   app.add_option("INPUT", options.input,
                  "a mesh (.obj .off .ply .stl), mesh:NAME, generate:NAME, a scene (.toml) or a replay file (.replay)")
       ->required();
-  app.add_option("--size", options.size,
-                 fmt::format("raster size in pixels, 1 to {} each, or one number for a square; if not given the scene's "
-                             "own, 1024 x 1024 for a mesh",
-                             kMaxExtent))
+  app.add_option(
+         "--size", options.size,
+         fmt::format("raster size in pixels, 1 to {} each, or one number for a square; if not given the scene's "
+                     "own, 1024 x 1024 for a mesh",
+                     kMaxExtent))
       ->type_name("WxH");
 }
 
 void addSettings(CLI::App& app, Options& options) {
-  app.add_option("--set", options.settings,
-                 "set an axis; more of them with commas between, or by more --set; what is not set is the plan's choice")
+  app.add_option(
+         "--set", options.settings,
+         "set an axis; more of them with commas between, or by more --set; what is not set is the plan's choice")
       ->type_name("AXIS=VALUE")
       ->allow_extra_args(false);
 }
@@ -172,8 +175,9 @@ std::vector<std::string> settingsOf(const Options& options) {
       rest.remove_prefix(std::min(setting.size() + 1, rest.size()));
       if (setting.empty() && !first) continue;
       if (!first && setting.find('=') == setting.npos)
-        failUsage(fmt::format("--set {}: '{}' has no axis; AXIS=VALUE,AXIS=VALUE would be right, with one value an axis",
-                              typed, setting));
+        failUsage(
+            fmt::format("--set {}: '{}' has no axis; AXIS=VALUE,AXIS=VALUE would be right, with one value an axis",
+                        typed, setting));
       settings.emplace_back(setting);
     } while (!rest.empty());
   }
@@ -198,7 +202,8 @@ KernelFiles kernelFilesOf(const Options& options) {
     const std::string stage = text.substr(0, equals);
     const fs::path file = text.substr(equals + 1);
     if (std::ranges::find(stages(), stage, &Stage::name) == stages().end())
-      failUsage(fmt::format("--kernel {}: no such stage; {}", text, whatThereIs(stage, namesOf(stages(), &Stage::name))));
+      failUsage(
+          fmt::format("--kernel {}: no such stage; {}", text, whatThereIs(stage, namesOf(stages(), &Stage::name))));
     std::error_code ignored;
     if (!fs::is_regular_file(file, ignored)) failUsage(fmt::format("--kernel {}: no such file", text));
     languageOf(file);
@@ -223,11 +228,12 @@ Scene sceneOf(const Options& options) {
   const Size size = options.size.empty() ? Size{0, 0} : parseSize(options.size);  // 0: the scene's own
   Scene scene = [&] {
     Progress progress(fmt::format("reading {}", options.input), 0);
-    return loadInput(options.input, size.width, size.height, attributeOf(options), [&](std::size_t done, std::size_t total) {
-      constexpr double kMegabyte = 1e6;
-      progress.at(0, fmt::format("{:.0f} of {:.0f} MB", static_cast<double>(done) / kMegabyte,
-                                 static_cast<double>(total) / kMegabyte));
-    });
+    return loadInput(options.input, size.width, size.height, attributeOf(options),
+                     [&](std::size_t done, std::size_t total) {
+                       constexpr double kMegabyte = 1e6;
+                       progress.at(0, fmt::format("{:.0f} of {:.0f} MB", static_cast<double>(done) / kMegabyte,
+                                                  static_cast<double>(total) / kMegabyte));
+                     });
   }();
   printNotes(scene);
   return scene;

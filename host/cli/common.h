@@ -49,7 +49,8 @@ KernelFiles kernelFilesOf(const Options& options);
 AttributeRequest attributeOf(const Options& options);
 /// Prints what a user would not expect of a scene as warnings, each line once a process.
 void printNotes(const Scene& scene);
-/// Loads the input and its attribute, and prints its notes; a size that was given replaces the scene's, and its camera follows.
+/// Loads the input and its attribute, and prints its notes; a size that was given replaces the scene's, and its camera
+/// follows.
 Scene sceneOf(const Options& options);
 /// Throws kUsage for a name that no device has, naming those here.
 std::unique_ptr<Device> openDevice(const std::string& name, unsigned threads);

@@ -57,7 +57,8 @@ Tolerances tolerancesOf(const std::vector<std::string>& texts, const std::string
                            : channel == "colour" ? &result.colour
                                                  : nullptr;
     if (!amount || channel.size() == text.size())
-      failUsage(fmt::format("{}: takes depth=, values= or colour= and an amount, as in depth=1e-6 or colour=4ulp", named));
+      failUsage(
+          fmt::format("{}: takes depth=, values= or colour= and an amount, as in depth=1e-6 or colour=4ulp", named));
     std::string number = text.substr(channel.size() + 1);
     const bool steps = number.ends_with("ulp");
     if (steps) number.resize(number.size() - 3);
@@ -70,8 +71,8 @@ Request requestOf(const CompareOptions& options) {
   Request request{tolerancesOf(options.tolerances, "--tolerance"), tolerancesOf(options.limits, "--at-most")};
   if (options.allow.empty()) return request;
   request.perCent = options.allow.ends_with('%');
-  request.allowed = numberOf(options.allow.substr(0, options.allow.size() - request.perCent), "--allow " + options.allow,
-                             "100 pixels or 0.1%");
+  request.allowed = numberOf(options.allow.substr(0, options.allow.size() - request.perCent),
+                             "--allow " + options.allow, "100 pixels or 0.1%");
   return request;
 }
 
@@ -124,8 +125,11 @@ Verdict verdictOf(const Request& request, const Outcome& outcome) {
   const bool tooMany = static_cast<double>(within.anywhere) > request.allowedOf(within.pixels);
   // Beyond the limit for one channel says nothing of those without a limit.
   const Difference limits = outcome.limits.difference();
-  const auto broken = [](const Amount& amount, const Difference::Count& count) { return amount.any() && count.value_or(0); };
-  const bool tooFar = broken(request.limits.depth, limits.depth) || broken(request.limits.attribute, limits.attribute) ||
+  const auto broken = [](const Amount& amount, const Difference::Count& count) {
+    return amount.any() && count.value_or(0);
+  };
+  const bool tooFar = broken(request.limits.depth, limits.depth) ||
+                      broken(request.limits.attribute, limits.attribute) ||
                       broken(request.limits.colour, limits.colour);
   if (tooMany || tooFar) return {"different", ExitCode::kDifference};
   return {"equal within the tolerances", ExitCode::kDone};
@@ -134,15 +138,16 @@ Verdict verdictOf(const Request& request, const Outcome& outcome) {
 /// Reads both, and writes the picture of where they differ, a band of rows at a time.
 Outcome compareFiles(const CompareOptions& options, const Request& request, std::optional<ImageOutput>& output) {
   ImageReader a(options.a, options.maxUnpacked), b(options.b, options.maxUnpacked);
-  Outcome outcome{Comparison(), Comparison(request.within), Comparison(request.limits), {}, {},
-                  otherFacts(a.facts(), b.facts())};
+  Outcome outcome{Comparison(), Comparison(request.within),      Comparison(request.limits), {},
+                  {},           otherFacts(a.facts(), b.facts())};
   if (a.width() != b.width() || a.height() != b.height())
     failUsage(fmt::format("the images are {} x {} and {} x {} pixels; they should have one size", a.width(), a.height(),
                           b.width(), b.height()));
   const auto readRows = [&](std::uint32_t begin, std::uint32_t end) {
     a.read(begin, end, outcome.a);
     b.read(begin, end, outcome.b);
-    for (Comparison* comparison : {&outcome.bits, &outcome.within, &outcome.limits}) comparison->add(outcome.a, outcome.b);
+    for (Comparison* comparison : {&outcome.bits, &outcome.within, &outcome.limits})
+      comparison->add(outcome.a, outcome.b);
   };
   if (output) {
     ImageFacts facts = factsOf("where two images differ");
@@ -183,7 +188,9 @@ std::string outcomeJson(const CompareOptions& options, const Request& request, c
   using Json = nlohmann::ordered_json;
   const auto json = [](const Difference& difference) {
     Json result = Json::parse(differenceText(difference));
-    const auto finite = [](const std::optional<double>& value) { return value && std::isfinite(*value) ? Json(*value) : Json(); };
+    const auto finite = [](const std::optional<double>& value) {
+      return value && std::isfinite(*value) ? Json(*value) : Json();
+    };
     result["attribute_max"] = finite(difference.attributeMax);
     result["attribute_rms"] = finite(difference.attributeRms);
     result["colour_max"] = finite(difference.colourMax);
@@ -192,8 +199,11 @@ std::string outcomeJson(const CompareOptions& options, const Request& request, c
     return result;
   };
   const Verdict verdict = verdictOf(request, outcome);
-  Json result = {{"a", options.a}, {"b", options.b}, {"verdict", verdict.word},
-                 {"exit_code", static_cast<int>(verdict.code)}, {"bits", json(outcome.bits.difference())}};
+  Json result = {{"a", options.a},
+                 {"b", options.b},
+                 {"verdict", verdict.word},
+                 {"exit_code", static_cast<int>(verdict.code)},
+                 {"bits", json(outcome.bits.difference())}};
   result["beyond_tolerance"] = request.within.any() ? json(outcome.within.difference()) : Json();
   result["beyond_limit"] = request.limits.any() ? json(outcome.limits.difference()) : Json();
   result["depends_on"] = Json::object();
@@ -231,14 +241,16 @@ Command addCompare(CLI::App& app) {
                    "a picture of where they differ; a pipe or - needs its format, as in png:-")
       ->type_name("FILE.png");
   command
-      ->add_option("--tolerance", options->tolerances,
-                   "agree where depth, values or colour (of R, G, B the one that differs most) are this near: a number, "
-                   "or float32 steps as in depth=2ulp; repeat for more")
+      ->add_option(
+          "--tolerance", options->tolerances,
+          "agree where depth, values or colour (of R, G, B the one that differs most) are this near: a number, "
+          "or float32 steps as in depth=2ulp; repeat for more")
       ->type_name("CHANNEL=AMOUNT")
       ->allow_extra_args(false);
   command
-      ->add_option("--allow", options->allow,
-                   "so many pixels may differ beyond the tolerances (in ids or coverage, too): 100, or a share as in 0.1%")
+      ->add_option(
+          "--allow", options->allow,
+          "so many pixels may differ beyond the tolerances (in ids or coverage, too): 100, or a share as in 0.1%")
       ->type_name("N|P%");
   command
       ->add_option("--at-most", options->limits,
@@ -248,9 +260,10 @@ Command addCompare(CLI::App& app) {
   command->add_option("--json", options->json, "add the counts, one line of JSON, to FILE's end; - is stdout")
       ->type_name("FILE");
   command
-      ->add_option("--max-unpacked", options->maxUnpacked,
-                   "read a file that unpacks to this size (as in 8G); if not given 512 MiB or 1100 times the file's size, "
-                   "the larger")
+      ->add_option(
+          "--max-unpacked", options->maxUnpacked,
+          "read a file that unpacks to this size (as in 8G); if not given 512 MiB or 1100 times the file's size, "
+          "the larger")
       ->type_name("SIZE")
       ->transform(CLI::AsSizeValue(false));
   command->footer(

@@ -10,7 +10,8 @@
 namespace tessera::cli {
 namespace {
 
-// Bash breaks words at = and :, so the words are made from the line; of a candidate it wants what follows the last break.
+// Bash breaks words at = and :, so the words are made from the line; of a candidate it wants what follows the last
+// break.
 constexpr const char* kBash = R"(# tessera: completion for bash.  source <(tessera completion bash)
 _tessera() {
   local program=${COMP_WORDS[0]/#\~/$HOME} line=${COMP_LINE:0:COMP_POINT} words word candidate meaning cut quote=

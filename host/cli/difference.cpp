@@ -31,7 +31,7 @@ std::string pixelText(const NamedFrame& named, std::size_t at) {
 
 std::string describe(const Difference& bits, const std::optional<Difference>& beyond) {
   const auto counts = [](const Difference& d) {
-    return std::vector<std::string>{grouped(d.pixels), grouped(d.coverage), grouped(d.id),    grouped(d.depth),
+    return std::vector<std::string>{grouped(d.pixels), grouped(d.coverage),  grouped(d.id),    grouped(d.depth),
                                     grouped(d.hits),   grouped(d.attribute), grouped(d.colour)};
   };
   std::vector<std::vector<std::string>> rows{{"pixels", "coverage", "id", "depth", "hits", "values", "colour"},

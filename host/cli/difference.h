@@ -15,7 +15,8 @@ struct NamedFrame {
   const std::string& name;
   const Framebuffer& frame;
 };
-/// One line, of whole frames or of that pixel alone: the first differing pixel with both ids and depths (and their bits).
+/// One line, of whole frames or of that pixel alone: the first differing pixel with both ids and depths (and their
+/// bits).
 std::string firstPixel(const Difference& difference, const NamedFrame& a, const NamedFrame& b);
 
 }  // namespace tessera::cli

@@ -117,9 +117,8 @@ std::string variantsTable(const Sweep& sweep, const std::vector<Cell>& cells, co
   }
   std::vector<std::vector<std::string>> rows{{"cells", "variant", "refused, and why"}};
   for (const auto& [name, variant] : variants) {
-    const std::string text =
-        (name.empty() ? "as set" : name) +
-        referenceWords(variant.references, variant.refusedReferences, cells.back().group + 1);
+    const std::string text = (name.empty() ? "as set" : name) +
+                             referenceWords(variant.references, variant.refusedReferences, cells.back().group + 1);
     rows.push_back({std::to_string(variant.cells), text, ""});
     bool first = true;
     for (const auto& [reason, count] : variant.reasons) {
@@ -166,9 +165,8 @@ ExitCode expand(const ExpandOptions& options) {
     std::size_t refused = 0;
     for (const SurveyedCell& cell : surveyed.cells) refused += cell.refused.has_value();
     say(stdout, "{}\n{}\n\n{}\n{}\n", sweep.title, sweep.question, jobsTable(sweep, all, surveyed),
-               variantsTable(sweep, all, surveyed));
-    say(
-        stdout,
+        variantsTable(sweep, all, surveyed));
+    say(stdout,
         "{} cells, {} of them refused; {} rounds, each of {} + {} frames a cell; {} kernels, {} of them to be "
         "compiled\n",
         grouped(all.size()), grouped(refused), sweep.rounds, sweep.warmUp, sweep.repeats, grouped(surveyed.kernels),

@@ -28,14 +28,16 @@ Command addHelp(CLI::App& app) {
 
 Command addCompletion(CLI::App& app) {
   auto shell = std::make_shared<std::string>();
-  auto* const command = app.add_subcommand("completion", "print what makes a shell complete commands, options and values");
+  auto* const command =
+      app.add_subcommand("completion", "print what makes a shell complete commands, options and values");
   command->add_option("SHELL", *shell, "bash, zsh or fish")->required();
   command->footer(
       "Examples:\n"
       "  tessera completion bash > ~/.local/share/bash-completion/completions/tessera\n"
       "  tessera completion zsh > ~/.zfunc/_tessera\n"
       "  tessera completion fish > ~/.config/fish/completions/tessera.fish\n"
-      "The folder has to be there; zsh has to have its folder in fpath. For this shell alone: source <(tessera completion "
+      "The folder has to be there; zsh has to have its folder in fpath. For this shell alone: source <(tessera "
+      "completion "
       "bash).");
   return {command, [shell] {
             fmt::print("{}", completionScript(*shell));

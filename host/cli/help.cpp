@@ -69,9 +69,8 @@ std::string axesHelp(unsigned columns) {
   std::string text = heading("AXIS=VALUE of --set ('tessera variants' says more)").substr(1);
   for (const Axis& axis : axes())
     text += twoColumns(axis.name,
-                       axis.values.empty()
-                           ? fmt::format("{} to {}", axis.least, axis.most)
-                           : fmt::format("{}", fmt::join(namesOf(axis.values, &AxisValue::name), ", ")),
+                       axis.values.empty() ? fmt::format("{} to {}", axis.least, axis.most)
+                                           : fmt::format("{}", fmt::join(namesOf(axis.values, &AxisValue::name), ", ")),
                        columns);
   return text;
 }
@@ -80,8 +79,8 @@ std::string inputHelp(unsigned columns) {
   std::string text =
       wrapped("INPUT: a mesh (.obj, .off, .ply, .stl), a scene (.toml), a replay file (.replay), or", columns) +
       twoColumns("mesh:NAME", "an installed mesh, e.g. mesh:refined_elephant; 'mesh:' alone lists them", columns) +
-      twoColumns("generate:NAME?KEY=VALUE&KEY=VALUE", "a generated one, e.g. 'generate:icosphere?level=6', of:",
-                 columns);
+      twoColumns("generate:NAME?KEY=VALUE&KEY=VALUE",
+                 "a generated one, e.g. 'generate:icosphere?level=6', of:", columns);
   for (const GeneratorDoc& doc : generatorDocs())
     text += twoColumns("  " + doc.name, fmt::format("{}\n{}", doc.makes, doc.parameters), columns);
   return text;

@@ -13,9 +13,9 @@
 #include "host/cpu/cpu-device.h"
 #include "host/cpu/kernel-fault.h"
 #include "host/error.h"
-#include "host/terminal.h"
 #include "host/plan.h"
 #include "host/stages.h"
+#include "host/terminal.h"
 #include "host/user-kernel.h"
 
 namespace tessera::cli {
@@ -23,7 +23,8 @@ namespace {
 
 constexpr auto kPatience = std::chrono::seconds(10);
 
-/// What the CPU device takes of these; the rest is refused there or cannot run there at all, and its own device says so.
+/// What the CPU device takes of these; the rest is refused there or cannot run there at all, and its own device says
+/// so.
 KernelFiles runnable(const KernelFiles& files, const Plan& plan, const KernelCache::Options& options) {
   KernelFiles taken;
   for (const auto& [stage, file] : files) {
@@ -43,13 +44,14 @@ KernelFiles runnable(const KernelFiles& files, const Plan& plan, const KernelCac
 /// Says a line where the work is not done after a while: a kernel may never end.
 class Patience {
  public:
-  Patience() : thread_([this](std::stop_token) {
-    std::unique_lock lock(mutex_);
-    if (done_.wait_for(lock, kPatience, [&] { return ended_; })) return;
-    const char* const kernel = runningKernel();
-    say(stderr, "{} runs since {} s, with bounds checks; Ctrl-C stops it\n",
-               kernel != nullptr ? kernel : "the checked frame", kPatience.count());
-  }) {}
+  Patience()
+      : thread_([this](std::stop_token) {
+          std::unique_lock lock(mutex_);
+          if (done_.wait_for(lock, kPatience, [&] { return ended_; })) return;
+          const char* const kernel = runningKernel();
+          say(stderr, "{} runs since {} s, with bounds checks; Ctrl-C stops it\n",
+              kernel != nullptr ? kernel : "the checked frame", kPatience.count());
+        }) {}
   ~Patience() {
     const std::lock_guard lock(mutex_);
     ended_ = true;
@@ -102,7 +104,8 @@ void KernelCheck::run() {
     if (error.code() == ExitCode::kOverflow) return;  // the frame that counts says so
     if (error.code() != ExitCode::kFailure || what.find("out of bounds") == std::string::npos) throw;
     std::vector<std::string> users;
-    for (const auto& [stage, file] : state_->files) users.push_back(fmt::format("kernel {} ({})", stage, file.string()));
+    for (const auto& [stage, file] : state_->files)
+      users.push_back(fmt::format("kernel {} ({})", stage, file.string()));
     failUsage(fmt::format("{}; it runs on what {} wrote", what, fmt::join(users, ", ")));
   }
 }

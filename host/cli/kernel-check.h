@@ -17,8 +17,8 @@ class KernelCheck {
   KernelCheck(const Scene& scene, const Variant& variant, const KernelFiles& files);
   ~KernelCheck();
 
-  /// Renders the frame. Throws kUsage for an index out of range, with kernel, file, index and buffer. After ten seconds a
-  /// line on stderr says which kernel runs.
+  /// Renders the frame. Throws kUsage for an index out of range, with kernel, file, index and buffer. After ten seconds
+  /// a line on stderr says which kernel runs.
   void run();
 
  private:
@@ -26,8 +26,8 @@ class KernelCheck {
   std::unique_ptr<State> state_;
 };
 
-/// Compiles and runs; nothing where there are no files. Faults of kernels that are no index, such as a division by zero,
-/// end the process with a line from then on.
+/// Compiles and runs; nothing where there are no files. Faults of kernels that are no index, such as a division by
+/// zero, end the process with a line from then on.
 void checkUserKernels(const Scene& scene, const Variant& variant, const KernelFiles& files);
 
 }  // namespace tessera::cli

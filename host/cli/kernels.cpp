@@ -103,8 +103,7 @@ ExitCode emit(const KernelsOptions& options) {
   rows.push_back(writeManifest(folder, manifestOf(scene, variant, plan, target, stages)));
   say(stdout, "{}", table(rows));
   if (missing == 0) return ExitCode::kDone;
-  say(stderr, "{} of {} stages cannot be written for {}: the table says why\n", missing, stages.size(),
-             target.name);
+  say(stderr, "{} of {} stages cannot be written for {}: the table says why\n", missing, stages.size(), target.name);
   return ExitCode::kUnsupported;
 }
 
@@ -124,7 +123,7 @@ ExitCode runKernels(const KernelsOptions& options) {
   compileKernels(kernels, plans);
   const KernelCache::Statistics statistics = kernels.statistics();
   say(stdout, "{} kernels of the default variants are ready in {}, {} of them compiled now\n",
-             statistics.hits + statistics.compiled, kernels.folder().string(), statistics.compiled);
+      statistics.hits + statistics.compiled, kernels.folder().string(), statistics.compiled);
   return ExitCode::kDone;
 }
 

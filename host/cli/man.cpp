@@ -17,10 +17,14 @@ namespace {
 std::string plain(std::string_view text) {
   std::string result;
   for (const char c : text) {
-    if (c == '\\') result += "\\e";
-    else if (c == '-') result += "\\-";
-    else if ((c == '.' || c == '\'') && (result.empty() || result.back() == '\n')) result += std::string("\\&") + c;
-    else result += c;
+    if (c == '\\')
+      result += "\\e";
+    else if (c == '-')
+      result += "\\-";
+    else if ((c == '.' || c == '\'') && (result.empty() || result.back() == '\n'))
+      result += std::string("\\&") + c;
+    else
+      result += c;
   }
   return result;
 }
@@ -67,19 +71,23 @@ std::string manualPage(const CLI::App& app) {
   text += section("DESCRIPTION") + plain(app.get_description()) + '\n' + paragraphs(app.get_footer());
   text += section("COMMANDS");
   for (const CLI::App* command : commandsOf(app)) text += commandText(*command);
-  text += section("INPUTS") + paragraphs("INPUT is a mesh (.obj, .off, .ply, .stl), a scene (.toml), a replay file (.replay), or one of these:");
+  text += section("INPUTS") +
+          paragraphs(
+              "INPUT is a mesh (.obj, .off, .ply, .stl), a scene (.toml), a replay file (.replay), or one of these:");
   text += entry("mesh:NAME", "an installed mesh, such as mesh:refined_elephant; 'mesh:' alone lists them");
   for (const GeneratorDoc& doc : generatorDocs())
     text += entry(fmt::format("generate:{}?KEY=VALUE&KEY=VALUE", doc.name), doc.makes + ". " + doc.parameters);
   text += section("AXES") + paragraphs("What --set takes. An axis that is not set is the plan's choice.");
   for (const Axis& axis : axes())
-    text += entry(axis.name, fmt::format("{}: {}. When not set: {}.", axis.meaning,
-                                         axis.values.empty()
-                                             ? fmt::format("{} to {}", axis.least, axis.most)
-                                             : fmt::format("{}", fmt::join(namesOf(axis.values, &AxisValue::name), ", ")),
-                                         axis.unset));
+    text +=
+        entry(axis.name, fmt::format("{}: {}. When not set: {}.", axis.meaning,
+                                     axis.values.empty()
+                                         ? fmt::format("{} to {}", axis.least, axis.most)
+                                         : fmt::format("{}", fmt::join(namesOf(axis.values, &AxisValue::name), ", ")),
+                                     axis.unset));
   text += section("ENVIRONMENT");
-  text += entry("TESSERA_CACHE", "the folder of compiled kernels and unpacked meshes; else tessera in $XDG_CACHE_HOME or ~/.cache");
+  text += entry("TESSERA_CACHE",
+                "the folder of compiled kernels and unpacked meshes; else tessera in $XDG_CACHE_HOME or ~/.cache");
   text += entry("SLANGC", "the Slang compiler; else the first in PATH that will do, else the one that ./dev fetched");
   text += entry("TESSERA_SLANG_SOURCES", "the folder of the kernels' sources");
   text += entry("TESSERA_PYTHON", "a Python 3.11 that makes reports");

@@ -21,22 +21,22 @@ using Json = nlohmann::ordered_json;
 
 /// Groups of a stage's dispatch, in fields of its uniform block.
 const std::map<std::string, std::string>& groupFormulas() {
-  static const std::string pixels = "ceil(width * (rowEnd - rowBegin) / 64)", work = "ceil((slotCount + itemCount) / 64)";
-  static const std::map<std::string, std::string> formulas{
-      {"clear", pixels},
-      {"transform", "ceil(vertexCount / 64)"},
-      {"project", "ceil(vertexCount / 64)"},
-      {"setup", "ceil(triangleCount / 64)"},
-      {"payload", "ceil(triangleCount / 64)"},
-      {"bin-count", work},
-      {"scan-blocks", "ceil(scanCount / 1024)"},
-      {"scan-add", "ceil(scanCount / 1024)"},
-      {"bin-insert", work},
-      {"raster-tiles", "tilesX * tilesY"},
-      {"raster-items", work},
-      {"resolve", pixels},
-      {"shade", pixels},
-      {"attribute", pixels}};
+  static const std::string pixels = "ceil(width * (rowEnd - rowBegin) / 64)",
+                           work = "ceil((slotCount + itemCount) / 64)";
+  static const std::map<std::string, std::string> formulas{{"clear", pixels},
+                                                           {"transform", "ceil(vertexCount / 64)"},
+                                                           {"project", "ceil(vertexCount / 64)"},
+                                                           {"setup", "ceil(triangleCount / 64)"},
+                                                           {"payload", "ceil(triangleCount / 64)"},
+                                                           {"bin-count", work},
+                                                           {"scan-blocks", "ceil(scanCount / 1024)"},
+                                                           {"scan-add", "ceil(scanCount / 1024)"},
+                                                           {"bin-insert", work},
+                                                           {"raster-tiles", "tilesX * tilesY"},
+                                                           {"raster-items", work},
+                                                           {"resolve", pixels},
+                                                           {"shade", pixels},
+                                                           {"attribute", pixels}};
   return formulas;
 }
 
@@ -73,8 +73,8 @@ const std::map<std::string, std::string>& sizeFormulas() {
 // ---- what slangc says of a stage
 
 std::string scalarName(const std::string& slang) {
-  static const std::map<std::string, std::string> names{{"float32", "f32"}, {"uint32", "u32"},  {"int32", "i32"},
-                                                        {"uint64", "u64"},  {"int64", "i64"}, {"float64", "f64"}};
+  static const std::map<std::string, std::string> names{{"float32", "f32"}, {"uint32", "u32"}, {"int32", "i32"},
+                                                        {"uint64", "u64"},  {"int64", "i64"},  {"float64", "f64"}};
   const auto found = names.find(slang);
   return found == names.end() ? slang : found->second;
 }
@@ -119,7 +119,8 @@ Json typeOf(const Json& type, const std::string& text, const EmitTarget& target)
 
 Json placeOf(const Json& parameter, bool block, bool writable, const EmitTarget& target) {
   const Json& binding = parameter.at("binding");
-  if (target.name == "hlsl") return {{"register", fmt::format("{}{}", block ? "b" : writable ? "u" : "t", binding.at("index").get<int>())}};
+  if (target.name == "hlsl")
+    return {{"register", fmt::format("{}{}", block ? "b" : writable ? "u" : "t", binding.at("index").get<int>())}};
   if (target.name == "metal") return {{"buffer", binding.at("index")}};
   if (binding.contains("offset")) return {{"offset", binding.at("offset")}};  // in the struct of globals
   return {{"group", 0}, {"binding", binding.at("index")}};
@@ -168,7 +169,8 @@ Json stageOf(const WrittenStage& written, const Plan& plan, const EmitTarget& ta
     }
   }
   // Vulkan's modules call it main.
-  const std::string name = target.name == "spirv" || target.name == "glsl" ? "main" : entry.at("name").get<std::string>();
+  const std::string name =
+      target.name == "spirv" || target.name == "glsl" ? "main" : entry.at("name").get<std::string>();
   return {{"stage", stage},
           {"file", written.file},
           {"entryPoint", name},
@@ -234,7 +236,8 @@ Manifest manifestOf(const Scene& scene, const Variant& asked, const Plan& plan, 
     KernelCache kernels;
     Rasterizer(recorder, kernels).render(scene, recordedVariant(scene, asked, plan, as));
     json["buffers"] = Json::array();
-    for (const auto& buffer : recorder.buffers()) json["buffers"].push_back({{"name", buffer.name}, {"bytes", buffer.bytes}});
+    for (const auto& buffer : recorder.buffers())
+      json["buffers"].push_back({{"name", buffer.name}, {"bytes", buffer.bytes}});
     json["commands"] = recorder.commands();
     json["outputs"] = outputs(recorder);
     manifest.files = recorder.files();

@@ -1,4 +1,5 @@
-// manifest.json beside emitted kernels: all that somebody else's host needs to run them. host/languages.md describes it.
+// manifest.json beside emitted kernels: all that somebody else's host needs to run them. host/languages.md describes
+// it.
 #pragma once
 
 #include <cstddef>

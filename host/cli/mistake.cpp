@@ -15,16 +15,16 @@ namespace {
 
 /// Words of others for what a command does, and for what an option says.
 const std::vector<std::pair<std::string, std::string>> kOtherWords{
-    {"draw", "render"},       {"run", "render"},      {"time", "render"},          {"bench", "render"},
-    {"benchmark", "render"},  {"view", "render"},     {"diff", "compare"},         {"check", "parity"},
-    {"test", "parity"},       {"verify", "parity"},   {"axes", "variants"},        {"list", "devices"},
-    {"info", "devices"},      {"gpus", "devices"},    {"compile", "kernels"},      {"emit", "kernels"},
-    {"experiment", "sweep"},  {"plot", "report"},     {"complete", "completion"},  {"--width", "--size"},
-    {"--height", "--size"},   {"--resolution", "--size"}, {"--res", "--size"},     {"--gpu", "--device"},
-    {"--cpu", "--device"},    {"--backend", "--device"},  {"--axis", "--set"},     {"--frames", "--repeat"},
-    {"--iterations", "--repeat"}, {"--runs", "--repeat"}, {"--jobs", "--threads"}, {"-j", "--threads"},
-    {"-n", "--repeat"},       {"-t", "--threads"},    {"-s", "--size"},            {"-d", "--device"},
-    {"--silent", "--quiet"},  {"--field", "--attribute"}, {"--value", "--attribute"}};
+    {"draw", "render"},           {"run", "render"},          {"time", "render"},         {"bench", "render"},
+    {"benchmark", "render"},      {"view", "render"},         {"diff", "compare"},        {"check", "parity"},
+    {"test", "parity"},           {"verify", "parity"},       {"axes", "variants"},       {"list", "devices"},
+    {"info", "devices"},          {"gpus", "devices"},        {"compile", "kernels"},     {"emit", "kernels"},
+    {"experiment", "sweep"},      {"plot", "report"},         {"complete", "completion"}, {"--width", "--size"},
+    {"--height", "--size"},       {"--resolution", "--size"}, {"--res", "--size"},        {"--gpu", "--device"},
+    {"--cpu", "--device"},        {"--backend", "--device"},  {"--axis", "--set"},        {"--frames", "--repeat"},
+    {"--iterations", "--repeat"}, {"--runs", "--repeat"},     {"--jobs", "--threads"},    {"-j", "--threads"},
+    {"-n", "--repeat"},           {"-t", "--threads"},        {"-s", "--size"},           {"-d", "--device"},
+    {"--silent", "--quiet"},      {"--field", "--attribute"}, {"--value", "--attribute"}};
 
 std::string meant(const std::string& typed, const std::vector<std::string>& known) {
   for (const auto& [other, ours] : kOtherWords)
@@ -43,8 +43,9 @@ std::string noCommand(const CLI::App& app, const std::string& typed) {
   if (input) return fmt::format("{}: no command; did you mean 'tessera render {}'?", typed, typed);
   const auto names = commandNames(app);
   const std::string close = meant(typed, names);
-  return fmt::format("no command '{}'; {}", typed,
-                     close.empty() ? whatThereIs(typed, names) : fmt::format("did you mean {}? 'tessera help' lists them", close));
+  return fmt::format(
+      "no command '{}'; {}", typed,
+      close.empty() ? whatThereIs(typed, names) : fmt::format("did you mean {}? 'tessera help' lists them", close));
 }
 
 std::string noOption(const CLI::App& command, const std::string& typed, const std::string& place) {

@@ -83,7 +83,8 @@ KernelFiles filesOfReplay(const Scene& replay, const Side& side, const KernelFil
   return kept;
 }
 
-std::optional<Reduced> reduceToReplay(const Scene& scene, const Side& different, const Side* first, const KernelFiles& files) {
+std::optional<Reduced> reduceToReplay(const Scene& scene, const Side& different, const Side* first,
+                                      const KernelFiles& files) {
   const Scene replay = replayOf(scene);
   Renderer here(different, replay, files);
   std::optional<Renderer> there;

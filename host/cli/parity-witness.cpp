@@ -29,7 +29,8 @@ void sortPieces(StageOutput& output) {
     if (*(at + static_cast<std::ptrdiff_t>(output.words) - 1) != kNoTriangle)
       pieces.emplace_back(at, at + static_cast<std::ptrdiff_t>(output.words));
   // By id first, so that the first piece that differs is that of one triangle.
-  std::ranges::sort(pieces, [](const auto& a, const auto& b) { return std::pair(a.back(), a) < std::pair(b.back(), b); });
+  std::ranges::sort(pieces,
+                    [](const auto& a, const auto& b) { return std::pair(a.back(), a) < std::pair(b.back(), b); });
   output.values.clear();
   for (const auto& piece : pieces) output.values.insert(output.values.end(), piece.begin(), piece.end());
 }
@@ -64,8 +65,8 @@ std::vector<Witness> witnesses(const Variant& variant, bool hasFiles) {
   return list;
 }
 
-std::string firstStageAgainst(const Frame& good, const Variant& goodVariant, const std::string& goodName, const Frame& frame,
-                              const Variant& variant, const std::string& name) {
+std::string firstStageAgainst(const Frame& good, const Variant& goodVariant, const std::string& goodName,
+                              const Frame& frame, const Variant& variant, const std::string& name) {
   const auto same = [&](const auto& names) {
     return std::ranges::all_of(names, [&](const char* axis) { return goodVariant.get(axis) == variant.get(axis); });
   };

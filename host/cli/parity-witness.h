@@ -1,4 +1,5 @@
-// Where every device is wrong alike: a variant that is right on the same device, so that the first wrong stage can be named.
+// Where every device is wrong alike: a variant that is right on the same device, so that the first wrong stage can be
+// named.
 #pragma once
 
 #include <optional>
@@ -19,9 +20,9 @@ struct Witness {
 };
 std::vector<Witness> witnesses(const Variant& variant, bool hasFiles);
 
-/// As firstStage(), for frames of two variants: the order of pieces is the variants' own, and so are bins where the axes
-/// that make them differ.
-std::string firstStageAgainst(const Frame& good, const Variant& goodVariant, const std::string& goodName, const Frame& frame,
-                              const Variant& variant, const std::string& name);
+/// As firstStage(), for frames of two variants: the order of pieces is the variants' own, and so are bins where the
+/// axes that make them differ.
+std::string firstStageAgainst(const Frame& good, const Variant& goodVariant, const std::string& goodName,
+                              const Frame& frame, const Variant& variant, const std::string& name);
 
 }  // namespace tessera::cli

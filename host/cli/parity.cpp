@@ -134,7 +134,8 @@ class Parity {
       const Framebuffer image = measure(run, rasterizer, kernels_, options_.repeat).image;
       run.peakBufferBytes = device.peakBufferBytes();
       run.difference = oracle.against(image);
-      if (!oracle.holdsColours()) oracle.holdColours(image.colour);  // the first device's are what the others' have to be
+      if (!oracle.holdsColours())
+        oracle.holdColours(image.colour);  // the first device's are what the others' have to be
       run.attributeRange = attributeOf(options_).range;
       measureError(run, image);
       outcome.covered = coveredPixels(image);
@@ -178,8 +179,8 @@ class Parity {
         if (!difference.equal()) continue;
         const Frame frame = Rasterizer(device, kernels_).render(scene_, different.variant, options);
         return fmt::format("{} {} it is as the oracle; {}", different.name(), witness.name,
-                           firstStageAgainst(good, good.plan.resolved, different.name() + " " + witness.name, frame, frame.plan.resolved,
-                                             different.name()));
+                           firstStageAgainst(good, good.plan.resolved, different.name() + " " + witness.name, frame,
+                                             frame.plan.resolved, different.name()));
       } catch (const Error&) {
         continue;  // what does not run is no witness
       }
@@ -214,18 +215,20 @@ void writeReplayOf(Parity& parity, const std::vector<Outcome>& outcomes, const P
     return;
   }
   if (!replay) {
-    say(stderr, "no replay: it begins after the transform and ends before the shading, and between them all is equal\n");
+    say(stderr,
+        "no replay: it begins after the transform and ends before the shading, and between them all is equal\n");
     return;
   }
   const Scene& scene = replay->reduced.scene;
-  const std::filesystem::path file = options.replay.empty() ? placeOfReplay(scene) : std::filesystem::path(options.replay);
+  const std::filesystem::path file =
+      options.replay.empty() ? placeOfReplay(scene) : std::filesystem::path(options.replay);
   OutputFile output(file);
   writeReplay(output.path(), scene);
   output.commit();
   say(stderr, "wrote {}: {} of {} triangles{}, which show it again: tessera parity {}{}\n", file.string(),
-             grouped(scene.triangles.size()), grouped(parity.scene().triangles.size()),
-             replay->reduced.least ? " (none can be left out)" : " (the time for fewer was up)", quoted(file.string()),
-             replay->options);
+      grouped(scene.triangles.size()), grouped(parity.scene().triangles.size()),
+      replay->reduced.least ? " (none can be left out)" : " (the time for fewer was up)", quoted(file.string()),
+      replay->options);
 }
 
 ExitCode runParity(const ParityOptions& options) {
@@ -274,17 +277,21 @@ Command addParity(CLI::App& app) {
                    "add a result row, one line of JSON, for each device and route to FILE's end; - is stdout")
       ->type_name("FILE");
   command
-      ->add_option("--replay", options->replay,
-                   "where a difference leaves the few triangles that show it, in clip space; else in the folder replays of "
-                   "the kernel cache")
+      ->add_option(
+          "--replay", options->replay,
+          "where a difference leaves the few triangles that show it, in clip space; else in the folder replays of "
+          "the kernel cache")
       ->type_name("FILE");
   command->footer(
       "Without --device: the CPU and every Vulkan device, each Vulkan device by both routes (Slang to SPIR-V, and "
       "Slang to GLSL to glslang). --set commit=count compares how often each sample is hit. The oracle does not "
-      "shade: colours are compared with the first device's, and so is all of an approximate variant, whose error is in the "
+      "shade: colours are compared with the first device's, and so is all of an approximate variant, whose error is in "
+      "the "
       "table. "
-      "A difference names the first stage and element that is not as on a device that is right; where none is, not as with "
-      "fewer settings or without --kernel on the same device. Its triangles are left out for up to 20 s, as long as the rest "
+      "A difference names the first stage and element that is not as on a device that is right; where none is, not as "
+      "with "
+      "fewer settings or without --kernel on the same device. Its triangles are left out for up to 20 s, as long as "
+      "the rest "
       "shows it, and what is left is written.\n\n"
       "Examples:\n"
       "  tessera parity mesh:refined_elephant\n"

@@ -20,9 +20,7 @@ constexpr std::chrono::seconds kLogInterval{10};
 }  // namespace
 
 Progress::Progress(std::string label, std::size_t total)
-    : label_(std::move(label)),
-      terminal_(isatty(STDERR_FILENO) == 1),
-      total_(total) {
+    : label_(std::move(label)), terminal_(isatty(STDERR_FILENO) == 1), total_(total) {
   try {
     watcher_ = std::jthread([this](std::stop_token stop) { watch(stop); });
   } catch (const std::system_error&) {

@@ -10,8 +10,8 @@
 
 namespace tessera::cli {
 
-/// A scene of those triangles, in that order, and of the vertices that they use. Its triangles have new ids. It is given
-/// in clip space.
+/// A scene of those triangles, in that order, and of the vertices that they use. Its triangles have new ids. It is
+/// given in clip space.
 Scene withTriangles(const Scene& scene, const std::vector<std::uint32_t>& triangles);
 
 struct Reduced {
@@ -20,9 +20,9 @@ struct Reduced {
   bool least = false;  ///< none of its triangles can be left out; false: the time was up before that was known
 };
 
-/// Delta debugging (Zeller and Hildebrandt 2002, ddmin): `differs` says whether a scene shows it, as `scene` itself does.
-/// `suspects` are sets of triangles that may do alone, the smallest first. Stops after `seconds`; `progress` hears how
-/// many triangles are left.
+/// Delta debugging (Zeller and Hildebrandt 2002, ddmin): `differs` says whether a scene shows it, as `scene` itself
+/// does. `suspects` are sets of triangles that may do alone, the smallest first. Stops after `seconds`; `progress`
+/// hears how many triangles are left.
 Reduced reduceTriangles(const Scene& scene, const std::vector<std::vector<std::uint32_t>>& suspects,
                         const std::function<bool(const Scene&)>& differs, double seconds,
                         const std::function<void(std::size_t)>& progress);

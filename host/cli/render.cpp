@@ -85,7 +85,8 @@ Framebuffer renderFrames(const RenderOptions& options, Device& device, KernelCac
   Rasterizer rasterizer(device, kernels);
   Progress progress("render", options.repeat + 1);
   Frame frame = measure(run, rasterizer, kernels, options.repeat, [&](unsigned done) {
-    if (done == 1 && !options.outputs.empty()) finishLoadingImages();  // or the frames that are timed would share the cores with it
+    if (done == 1 && !options.outputs.empty())
+      finishLoadingImages();  // or the frames that are timed would share the cores with it
     progress.at(done);
   });
   run.peakBufferBytes = device.peakBufferBytes();
@@ -147,9 +148,10 @@ Command addRender(CLI::App& app) {
   auto* const command = app.add_subcommand("render", "render INPUT to an image and a result row");
   addInput(*command, *options);
   command
-      ->add_option("-o,--output", options->outputs,
-                   "image: .png to look at, .exr with exact ids and depths; a pipe or - needs its format, as in png:-; may be "
-                   "repeated")
+      ->add_option(
+          "-o,--output", options->outputs,
+          "image: .png to look at, .exr with exact ids and depths; a pipe or - needs its format, as in png:-; may be "
+          "repeated")
       ->type_name("FILE")
       ->allow_extra_args(false);
   addDevice(*command, *options, false);
@@ -165,7 +167,8 @@ Command addRender(CLI::App& app) {
       ->type_name("FILE");
   command->footer(
       "Without -o and --json the frames are rendered and timed, and nothing is written. Times are those of the whole "
-      "frame: median, least and greatest of --repeat frames, with a warning where they are too far apart to be compared.\n\n"
+      "frame: median, least and greatest of --repeat frames, with a warning where they are too far apart to be "
+      "compared.\n\n"
       "Examples:\n"
       "  tessera render mesh:refined_elephant -o elephant.png --set shade=smooth --size 1920x1080\n"
       "  tessera render 'generate:icosphere?level=7' --device vulkan:0 --set route=glsl -o ball.exr\n"

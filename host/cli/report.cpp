@@ -46,8 +46,8 @@ Place bringRowsUpToDate(const fs::path& folder) {
   if (!haveRows && !haveJournal && fs::exists(results, error))
     return {results, fs::path("out") / "report" / fs::canonical(folder).filename()};
   if (!haveRows && !haveJournal)
-    failUsage(fmt::format("{}: neither rows.jsonl, journal.jsonl nor results.jsonl is there: nothing to report; {}", folder.string(),
-                          sweepFirst));
+    failUsage(fmt::format("{}: neither rows.jsonl, journal.jsonl nor results.jsonl is there: nothing to report; {}",
+                          folder.string(), sweepFirst));
   // Not by the files' times, which a copy changes.
   if (haveJournal) harness::deriveRows(folder);
   return {rows, folder / "report"};
@@ -60,14 +60,16 @@ std::string pythonProgram() {
   const fs::path python = home().python;
   if (access(python.c_str(), X_OK) == 0) return python;  // not so where it is a link to a Python that is not here
   if (!home().installed)
-    fail(fmt::format("{}: not there; './dev build' installs what reports are made with, or set TESSERA_PYTHON to a "
-                     "Python 3.11 that has what tools/report.txt lists",
-                     python.string()));
+    fail(
+        fmt::format("{}: not there; './dev build' installs what reports are made with, or set TESSERA_PYTHON to a "
+                    "Python 3.11 that has what tools/report.txt lists",
+                    python.string()));
   const fs::path own = defaultCacheFolder() / "report", ownPython = own / "bin/python";
   if (access(ownPython.c_str(), X_OK) == 0) return ownPython;
-  fail(fmt::format("{} does not run here; 'python3.11 -m venv {} && {} install --require-hashes -r {}' installs "
-                   "what reports are made with, or set TESSERA_PYTHON to a Python 3.11 that has it",
-                   python.string(), quoted(own.string()), quoted((own / "bin/pip").string()), quoted(home().pins.string())));
+  fail(fmt::format(
+      "{} does not run here; 'python3.11 -m venv {} && {} install --require-hashes -r {}' installs "
+      "what reports are made with, or set TESSERA_PYTHON to a Python 3.11 that has it",
+      python.string(), quoted(own.string()), quoted((own / "bin/pip").string()), quoted(home().pins.string())));
 }
 
 ExitCode runReport(const ReportOptions& options) {
@@ -101,7 +103,8 @@ Command addReport(CLI::App& app) {
                    "a sweep's folder, one with rows.jsonl and sweep.toml, or an experiment's with results.jsonl")
       ->required();
   command
-      ->add_option("--out", options->out, "the report's folder; without it DIR/report, of results.jsonl out/report/NAME")
+      ->add_option("--out", options->out,
+                   "the report's folder; without it DIR/report, of results.jsonl out/report/NAME")
       ->type_name("FOLDER");
   command->add_option("--export", options->exported, "the rows as a table, too")->type_name("FILE.parquet|FILE.duckdb");
   command->add_flag("--all-devices", options->allDevices,

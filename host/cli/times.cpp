@@ -25,7 +25,8 @@ std::string timesWarning(const Run& run) {
   const Spread frames = totalSpread(run.samples);
   if (frames.medianError() <= kWideSpread) return "";
   return fmt::format(
-      "warning: the frames took {} to {} ms: their median may be off by {:.0f} %; a quieter machine would help, or more "
+      "warning: the frames took {} to {} ms: their median may be off by {:.0f} %; a quieter machine would help, or "
+      "more "
       "than --repeat {}\n",
       milliseconds(frames.min), milliseconds(frames.max), 100 * frames.medianError(), frames.count);
 }

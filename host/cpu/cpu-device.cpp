@@ -214,9 +214,11 @@ class CpuDevice final : public Device {
     const auto holder = std::ranges::find_if(bindings, [&](const Binding& b) {
       return address != 0 && b.buffer != nullptr && own(*b.buffer).data() == reinterpret_cast<std::byte*>(address);
     });
-    const std::string what = holder == bindings.end() ? std::string("an array in it") : fmt::format("`{}`", holder->name);
-    throw Error(kernel.compiled().file.empty() ? ExitCode::kFailure : ExitCode::kUsage,  // a user's kernel is input
-                fmt::format("{}: out of bounds: index {} of {} elements of {}", kernel.description(), index, count, what));
+    const std::string what =
+        holder == bindings.end() ? std::string("an array in it") : fmt::format("`{}`", holder->name);
+    throw Error(
+        kernel.compiled().file.empty() ? ExitCode::kFailure : ExitCode::kUsage,  // a user's kernel is input
+        fmt::format("{}: out of bounds: index {} of {} elements of {}", kernel.description(), index, count, what));
   }
 
   /// The struct of globals: a pointer to the block, and a pointer and an element count for each structured buffer.

@@ -107,8 +107,8 @@ std::string writeBands(OIIO::ImageOutput& out, const Header& header, const RowSo
     pixels.resize(bytes);
     rows(begin, end, pixels.data());
     hashes.push_back(OIIO::xxhash::XXH64(pixels.data(), bytes));
-    const bool good = out.write_scanlines(static_cast<int>(begin), static_cast<int>(end), 0,
-                                          TypeDesc::UNKNOWN, pixels.data());
+    const bool good =
+        out.write_scanlines(static_cast<int>(begin), static_cast<int>(end), 0, TypeDesc::UNKNOWN, pixels.data());
     return good ? "" : firstLine(out.geterror());
   });
   return !error.empty() ? error : out.close() ? "" : firstLine(out.geterror());

@@ -97,8 +97,8 @@ std::string plainWords(std::string_view text) {
   // "Found no drivers" is what we say ourselves; that a library failed is in the line before, with the reason.
   if (text.ends_with("Found no drivers!") || text.find("Failed loading library associated with ICD JSON") != text.npos)
     return "";
-  for (const std::string_view function :
-       {"loader_get_json: ", "loader_icd_scan: ", "loader_parse_icd_manifest: ", "loader_scanned_icd_add: ", "vkCreateInstance: "})
+  for (const std::string_view function : {"loader_get_json: ", "loader_icd_scan: ", "loader_parse_icd_manifest: ",
+                                          "loader_scanned_icd_add: ", "vkCreateInstance: "})
     takePrefix(text, function);
   if (takePrefix(text, "Failed to parse JSON file "))  // "..., this is usually because something ran out of memory"
     return fmt::format("{}: not a valid JSON file", text.substr(0, text.find(',')));
@@ -113,9 +113,10 @@ std::string driverFailure(std::string_view what, const std::vector<std::string>&
   if (!causes.empty()) line += fmt::format(": {}", fmt::join(causes, "; "));
   const char* const package = about == About::kDrivers ? "mesa-vulkan-drivers" : "vulkan-validationlayers";
   if (variables.empty()) return fmt::format("{}; Debian's {} would do", line, package);
-  const char* const names = about == About::kDrivers ? "the .json file of a driver that is there"
-                                                     : "the folder of a layer that is there";
-  return fmt::format("{}; unset {}, or name {} (Debian: {})", line, variables.size() == 1 ? "it" : "them", names, package);
+  const char* const names =
+      about == About::kDrivers ? "the .json file of a driver that is there" : "the folder of a layer that is there";
+  return fmt::format("{}; unset {}, or name {} (Debian: {})", line, variables.size() == 1 ? "it" : "them", names,
+                     package);
 }
 
 }  // namespace tessera::vulkan

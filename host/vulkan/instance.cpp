@@ -1,4 +1,3 @@
-#include "host/terminal.h"
 #include "host/vulkan/instance.h"
 
 #include <fmt/format.h>
@@ -13,6 +12,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "host/terminal.h"
 #include "host/vulkan/drivers.h"
 
 namespace tessera::vulkan {
@@ -59,7 +59,8 @@ vk::DebugUtilsMessengerCreateInfoEXT complaintInfo(std::vector<std::string>& com
 void addSwiftShader() {
   constexpr const char* kDriver = "/usr/lib/chromium/vk_swiftshader_icd.json";
   const char* const added = std::getenv("VK_ADD_DRIVER_FILES");
-  if (added != nullptr && std::strcmp(added, kDriver) == 0) ownVariable("VK_ADD_DRIVER_FILES");  // a parent's, say a sweep's
+  if (added != nullptr && std::strcmp(added, kDriver) == 0)
+    ownVariable("VK_ADD_DRIVER_FILES");  // a parent's, say a sweep's
   for (const char* said : {"VK_ICD_FILENAMES", "VK_DRIVER_FILES", "VK_ADD_DRIVER_FILES"})
     if (std::getenv(said) != nullptr) return;
   std::error_code ignored;
@@ -184,7 +185,8 @@ std::vector<Adapter> Instance::adapters(vk::QueueFlags queueFlags) const try {
   return {};  // what the loader says when no driver loads
 }
 
-Adapter selectAdapter(std::vector<Adapter> adapters, const std::string& select, const std::vector<std::string>& complaints) {
+Adapter selectAdapter(std::vector<Adapter> adapters, const std::string& select,
+                      const std::vector<std::string>& complaints) {
   if (adapters.empty()) failUsage(driverFailure("no Vulkan device: no driver found one", complaints));
   std::string known;
   for (std::size_t i = 0; i < adapters.size(); ++i)

@@ -1,5 +1,5 @@
-// What a command says when it is asked: which meshes there are, what a plan runs, which devices there are; and what of a
-// sweep the command line may change.
+// What a command says when it is asked: which meshes there are, what a plan runs, which devices there are; and what of
+// a sweep the command line may change.
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
@@ -41,8 +41,8 @@ TEST_CASE("A plan takes an attribute and kernels and threads") {
   CHECK_FALSE(kept(plain, "attribute"));
   CHECK(kept(asked, "attribute"));
   CHECK(asked["kernels"]["shade"] == "mine.slang");
-  CHECK(says(desk.tessera("plan two.obj --set shade=flat --kernel shade=mine.slang").out,
-             "kernel of shade: mine.slang"));
+  CHECK(
+      says(desk.tessera("plan two.obj --set shade=flat --kernel shade=mine.slang").out, "kernel of shade: mine.slang"));
   const auto refused = desk.tessera("plan two.obj --kernel shade=mine.slang");
   CHECK(refused.code == 2);
   CHECK(says(refused.err, "this plan does not run such a stage"));

@@ -52,8 +52,7 @@ TEST_CASE("A commit without ids has its coverage and depth held against the orac
   std::string summary;
   const json grey = rowOf(desk, render + "depth24+lum8")["error"],
              colours = rowOf(desk, render + "depth32+rgba8", &summary)["error"];
-  for (const json& error : {grey, colours})
-  {
+  for (const json& error : {grey, colours}) {
     CHECK(error["coverage_mismatch"] == 0);
     for (const char* const part : {"id_mismatch", "hit_count_mismatch"}) CHECK(error[part].is_null());
   }

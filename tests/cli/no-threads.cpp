@@ -1,4 +1,5 @@
-// Loaded before a program: its threads cannot be made, as where a limit on processes is reached. Root has no such limit.
+// Loaded before a program: its threads cannot be made, as where a limit on processes is reached. Root has no such
+// limit.
 #include <errno.h>
 #include <pthread.h>
 

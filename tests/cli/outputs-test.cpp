@@ -26,7 +26,9 @@ void refused(const Desk& desk, const std::string& arguments, const std::string& 
   CHECK(desk.names() == before);
 }
 
-std::size_t lines(const std::string& text) { return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')); }
+std::size_t lines(const std::string& text) {
+  return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+}
 
 }  // namespace
 
@@ -130,7 +132,8 @@ TEST_CASE("A thread that cannot be made is an error and no abort") {
   const auto several = desk.tessera(kRender + "--threads 4 --json row.json", none);
   INFO(several.err);
   CHECK(several.code == 1);
-  CHECK(several.err == "tessera: cpu: thread 2 of 4 cannot be made: Resource temporarily unavailable; --threads 1 would do\n");
+  CHECK(several.err ==
+        "tessera: cpu: thread 2 of 4 cannot be made: Resource temporarily unavailable; --threads 1 would do\n");
   const auto one = desk.tessera(kRender + "--threads 1 --json row.json", none);
   INFO(one.err);
   CHECK(one.code == 0);

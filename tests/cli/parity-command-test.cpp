@@ -1,4 +1,5 @@
-// parity where every device is wrong alike: the stage is named by a variant that is right, and the replay is what still differs.
+// parity where every device is wrong alike: the stage is named by a variant that is right, and the replay is what still
+// differs.
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <regex>
@@ -14,7 +15,8 @@ bool has(const std::string& text, const std::string& part) { return text.find(pa
 
 /// A file of the kernels' sources with one place changed.
 std::string changed(const Desk& desk, const std::string& file, const std::string& from, const std::string& to) {
-  fs::copy_file(fs::path(TESSERA_SOURCE_DIR) / "slang" / file, desk.path() / "source", fs::copy_options::overwrite_existing);
+  fs::copy_file(fs::path(TESSERA_SOURCE_DIR) / "slang" / file, desk.path() / "source",
+                fs::copy_options::overwrite_existing);
   std::string text = desk.read("source");
   fs::remove(desk.path() / "source");
   REQUIRE(has(text, from));
@@ -23,7 +25,8 @@ std::string changed(const Desk& desk, const std::string& file, const std::string
 
 /// What parity said it wrote: the file, how many triangles, and the command.
 std::smatch replayIn(const std::string& said) {
-  static const std::regex wrote(R"(wrote (\S+): ([\d,]+) of ([\d,]+) triangles( \(none can be left out\))?, which show it again: tessera (.*)\n)");
+  static const std::regex wrote(
+      R"(wrote (\S+): ([\d,]+) of ([\d,]+) triangles( \(none can be left out\))?, which show it again: tessera (.*)\n)");
   std::smatch match;
   REQUIRE(std::regex_search(said, match, wrote));
   return match;
@@ -34,10 +37,13 @@ std::smatch replayIn(const std::string& said) {
 TEST_CASE("A user's kernel that is wrong everywhere has its stage named and its triangles kept") {
   Desk desk;
   // Pieces that begin in some columns of the raster come out too near.
-  desk.write("mine.slang", changed(desk, "rasterizer/setup.slang", "    storePiece(p, bounds, slot);",
-                                   "    Piece q = p;\n    if ((q.x0 & 4095) < 512)\n        q.z0 = 0.0f;\n    storePiece(q, bounds, slot);"));
-  const auto outcome =
-      desk.tessera("parity 'generate:icosphere?level=2' --size 64x64 --device cpu --kernel setup=mine.slang --replay found.replay");
+  desk.write(
+      "mine.slang",
+      changed(
+          desk, "rasterizer/setup.slang", "    storePiece(p, bounds, slot);",
+          "    Piece q = p;\n    if ((q.x0 & 4095) < 512)\n        q.z0 = 0.0f;\n    storePiece(q, bounds, slot);"));
+  const auto outcome = desk.tessera(
+      "parity 'generate:icosphere?level=2' --size 64x64 --device cpu --kernel setup=mine.slang --replay found.replay");
   INFO(outcome.out << outcome.err);
   CHECK(outcome.code == 5);
   CHECK(has(outcome.out, "without --kernel it is as the oracle; first stage that differs: setup, piece "));
@@ -58,12 +64,15 @@ TEST_CASE("A setting that is wrong everywhere is named and the replay does not g
   fs::copy(TESSERA_SOURCE_DIR "/slang", desk.path() / "slang", fs::copy_options::recursive);
   desk.write("slang/traversal/scanline.slang",
              changed(desk, "traversal/scanline.slang", "                visitor.visit(column,",
-                     "                if (column % 8 == 3)\n                    continue;\n                visitor.visit(column,"));
+                     "                if (column % 8 == 3)\n                    continue;\n                "
+                     "visitor.visit(column,"));
   const auto outcome = desk.tessera(
-      "parity 'generate:icosphere?level=2' --size 64x64 --device cpu --set tile=32 --set traversal=scanline", "TESSERA_SLANG_SOURCES=slang");
+      "parity 'generate:icosphere?level=2' --size 64x64 --device cpu --set tile=32 --set traversal=scanline",
+      "TESSERA_SLANG_SOURCES=slang");
   INFO(outcome.out << outcome.err);
   CHECK(outcome.code == 5);
-  CHECK(has(outcome.out, "cpu cpp without --set traversal=scanline it is as the oracle; first stage that differs: raster, pixel "));
+  CHECK(has(outcome.out,
+            "cpu cpp without --set traversal=scanline it is as the oracle; first stage that differs: raster, pixel "));
   CHECK(desk.names() == std::vector<std::string>{"slang"});
   const std::string said = outcome.err;
   const std::smatch replay = replayIn(said);

@@ -78,9 +78,8 @@ TEST_CASE("Axes and values that do not exist are refused and those there are nam
 TEST_CASE("Sizes of 0 and beyond 32768 are refused and so is what is no size") {
   Desk desk;
   desk.write("two.obj", tessera::test::twoTriangles());
-  for (const char* const size :
-       {"0x0", "0x16", "16x0", "32769x1", "1x32769", "4294967296x1", "99999999999999999999x1", "-1x4", "4x-1", "0",
-        "16x", "x16", "16x16x16", "16 x 16", "axb", "1e3x1e3"}) {
+  for (const char* const size : {"0x0", "0x16", "16x0", "32769x1", "1x32769", "4294967296x1", "99999999999999999999x1",
+                                 "-1x4", "4x-1", "0", "16x", "x16", "16x16x16", "16 x 16", "axb", "1e3x1e3"}) {
     const auto arguments = std::string("render two.obj -o a.png --size '") + size + "'";
     check(desk, {arguments.c_str(), "32768"});
   }
@@ -189,8 +188,7 @@ TEST_CASE("Help is wrapped to the columns there are and names no option of anoth
   for (const char* const command : {"render", "parity", "compare", "plan", "devices", "variants", "kernels", "expand",
                                     "sweep", "report", "help", "version", ""})
     for (const unsigned columns : {60u, 100u}) {
-      const auto outcome =
-          desk.tessera(std::string(command) + " --help", "COLUMNS=" + std::to_string(columns));
+      const auto outcome = desk.tessera(std::string(command) + " --help", "COLUMNS=" + std::to_string(columns));
       CHECK(outcome.out.find("Excludes:") == std::string::npos);
       std::istringstream lines(outcome.out);
       for (std::string line; std::getline(lines, line);) {

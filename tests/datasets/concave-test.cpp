@@ -51,7 +51,8 @@ glm::dvec3 newell(const Points& points) {
   return sum;
 }
 
-/// All triangles turn like the polygon, and their areas make up the polygon's: nothing is covered twice, nothing is left.
+/// All triangles turn like the polygon, and their areas make up the polygon's: nothing is covered twice, nothing is
+/// left.
 void checkCovers(const Points& points, const std::vector<Triangle>& triangles) {
   const glm::dvec3 normal = newell(points), unit = glm::normalize(normal);
   double area = 0;
@@ -90,7 +91,8 @@ TEST_CASE("Convex polygons keep their fan") {
     Points more;
     for (std::size_t i = 0; i < n; ++i) {
       more.push_back(points[i]);
-      for (const double t : {0.1, 1 / 3.0}) more.push_back(glm::vec3(points[i] + t * (points[(i + 1) % n] - points[i])));
+      for (const double t : {0.1, 1 / 3.0})
+        more.push_back(glm::vec3(points[i] + t * (points[(i + 1) % n] - points[i])));
     }
     const Cut finer = cut(files, more);
     CHECK(finer.triangles == fanOf(3 * n));
@@ -147,7 +149,8 @@ TEST_CASE("Concave polygons with corners on straight sides, doubled corners and 
   for (const glm::dvec3& p : kL) doubled.insert(doubled.end(), 2, p);
   checkCovers(doubled, cut(files, doubled).triangles);
   // A square with a square hole, joined by a bridge that is passed twice.
-  const Points ring{{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}, {0, 0, 0}, {1, 1, 0}, {1, 3, 0}, {3, 3, 0}, {3, 1, 0}, {1, 1, 0}};
+  const Points ring{{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}, {0, 0, 0},
+                    {1, 1, 0}, {1, 3, 0}, {3, 3, 0}, {3, 1, 0}, {1, 1, 0}};
   const Cut result = cut(files, ring);
   CHECK(result.concave == 1);
   checkCovers(ring, result.triangles);
@@ -171,12 +174,12 @@ TEST_CASE("Polygons of any kind give n - 2 triangles") {
   const double nan = std::nan(""), inf = INFINITY;
   (void)nan, (void)inf;
   const std::vector<Points> strange{
-      {{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}},                              // crosses itself
-      {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {1.5, 0, 0}},                 // on one line
-      {{1, 2, 3}, {1, 2, 3}, {1, 2, 3}, {1, 2, 3}},                              // one point
+      {{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}},                                 // crosses itself
+      {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {1.5, 0, 0}},                    // on one line
+      {{1, 2, 3}, {1, 2, 3}, {1, 2, 3}, {1, 2, 3}},                                 // one point
       {{0, 1, 0}, {0.6, -0.8, 0}, {-0.9, 0.3, 0}, {0.9, 0.3, 0}, {-0.6, -0.8, 0}},  // a pentagram
-      {{0, 0, 0}, {2, 0, 0}, {1, 0, 0}, {2, 1, 0}, {2, 0, 0}, {0, 2, 0}},        // spikes
-      {{0, 0, 0}, {1, 0, 1}, {1, 1, -1}, {0, 1, 1}, {0.2, 0.5, -3}},             // far from flat
+      {{0, 0, 0}, {2, 0, 0}, {1, 0, 0}, {2, 1, 0}, {2, 0, 0}, {0, 2, 0}},           // spikes
+      {{0, 0, 0}, {1, 0, 1}, {1, 1, -1}, {0, 1, 1}, {0.2, 0.5, -3}},                // far from flat
       {{0, 0, 0}, {1e200, 0, 0}, {1e199, 1e199, 0}, {0, 1e200, 0}},
   };
   for (const Points& points : strange) {
@@ -184,9 +187,10 @@ TEST_CASE("Polygons of any kind give n - 2 triangles") {
     Mesh mesh;
     mesh.positions = points;
     const std::vector<Triangle> fan = fanOf(n);
-    std::string text = "ply\nformat ascii 1.0\nelement vertex " + std::to_string(n) +
-                       "\nproperty double x\nproperty double y\nproperty double z\nelement face 1\nproperty list int int "
-                       "vertex_indices\nend_header\n";
+    std::string text =
+        "ply\nformat ascii 1.0\nelement vertex " + std::to_string(n) +
+        "\nproperty double x\nproperty double y\nproperty double z\nelement face 1\nproperty list int int "
+        "vertex_indices\nend_header\n";
     char line[128];
     for (const glm::dvec3& p : points) {
       std::snprintf(line, sizeof line, "%.17g %.17g %.17g\n", p.x, p.y, p.z);

@@ -129,7 +129,8 @@ TEST_CASE("Layers come in the order that was asked for") {
   const auto depths = [](const std::string& order) {
     const Mesh mesh = generateMesh("layers?count=4&order=" + order);
     std::vector<float> z;
-    for (std::size_t t = 0; t < mesh.triangles.size(); t += 2) z.push_back(static_cast<float>(mesh.positions[mesh.triangles[t][0]].z));
+    for (std::size_t t = 0; t < mesh.triangles.size(); t += 2)
+      z.push_back(static_cast<float>(mesh.positions[mesh.triangles[t][0]].z));
     return z;
   };
   CHECK(depths("far-to-near") == std::vector<float>{0.875f, 0.625f, 0.375f, 0.125f});
@@ -165,7 +166,8 @@ TEST_CASE("Points of the circle") {
 TEST_CASE("Bad parameters of generators are refused") {
   const auto error = [](const std::string& spec) { return usageError([&] { loadInput("generate:" + spec); }); };
   CHECK(error("sphere") ==
-        "generate:sphere: no such generator; did you mean icosphere? There are icosphere, torus, grid, fan, slivers, soup, layers, hot");
+        "generate:sphere: no such generator; did you mean icosphere? There are icosphere, torus, grid, fan, slivers, "
+        "soup, layers, hot");
   CHECK(error("").starts_with("generate: of what? There are icosphere"));
   CHECK(error("icosphere?level=10") == "generate:icosphere: level=10 is not 0 to 9");
   CHECK(error("icosphere?level=-1") == "generate:icosphere: level=-1 is not 0 to 9");

@@ -62,7 +62,8 @@ TEST_CASE("OBJ: normals are computed where the file has none") {
   CHECK(mesh.normals[4] == glm::vec3(0, 0, 1));  // in no triangle
 }
 
-TEST_CASE("OBJ: statements that have no triangles are skipped, curves and surfaces are named, other words are refused") {
+TEST_CASE(
+    "OBJ: statements that have no triangles are skipped, curves and surfaces are named, other words are refused") {
   const Files files;
   const std::string skipped =
       "vt 0 0\nvp 0 0\no a\ng b c\ns off\nmg 0\nusemtl red # 1\nmtllib a b.mtl\nl 1 2\np 1\nbevel on\nlod 3\n"
@@ -70,11 +71,13 @@ TEST_CASE("OBJ: statements that have no triangles are skipped, curves and surfac
   const Mesh plain = readMesh(files.write("a.obj", kFour + skipped + "f 1 2 3\n"));
   CHECK(plain.triangles == std::vector<Triangle>{{0, 1, 2}});
   CHECK(plain.notes.empty());
-  const Mesh curves = readMesh(files.write("a.obj", kFour + "surf 0 1 0 1 1 2 3 4\ncurv 0 1 1 2\nsurf 0 1 0 1 1 2 3 4\n"));
+  const Mesh curves =
+      readMesh(files.write("a.obj", kFour + "surf 0 1 0 1 1 2 3 4\ncurv 0 1 1 2\nsurf 0 1 0 1 1 2 3 4\n"));
   CHECK(curves.triangles.empty());
   CHECK(curves.notes == std::vector<std::string>{"statements that are not read: 1 curv, 2 surf"});
   for (const std::string word : {"fo", "F", "V", "face", "vertex", "f1", "\xef\xbb\xbfv", "1", "\\"})
-    CHECK(readError(files, "a.obj", kFour + word + " 1 2 3\n").starts_with("a.obj:5: '" + word + "' is no statement of OBJ"));
+    CHECK(readError(files, "a.obj", kFour + word + " 1 2 3\n")
+              .starts_with("a.obj:5: '" + word + "' is no statement of OBJ"));
 }
 
 TEST_CASE("OBJ: a vertex may have a weight, a colour or both") {
@@ -99,8 +102,9 @@ TEST_CASE("OBJ: negative normals count from the last one so far; corners in each
 TEST_CASE("OBJ: coordinates keep the double that is nearest to their digits") {
   const Files files;
   const Mesh mesh = readMesh(files.write(
-      "a.obj", "v 4500000.123 .5 -5.\nv 0.1234567890123456789 1e22 1.7976931348623157e-290\nv +1e-400 9007199254740993 -0\n"
-               "v 123456789012345678901234567890e-20 1E+5 0e9999\nf 1 2 3\n"));
+      "a.obj",
+      "v 4500000.123 .5 -5.\nv 0.1234567890123456789 1e22 1.7976931348623157e-290\nv +1e-400 9007199254740993 -0\n"
+      "v 123456789012345678901234567890e-20 1E+5 0e9999\nf 1 2 3\n"));
   CHECK(mesh.positions[0] == glm::dvec3(4500000.123, 0.5, -5));
   CHECK(mesh.positions[1] == glm::dvec3(0.1234567890123456789, 1e22, 1.7976931348623157e-290));
   CHECK(mesh.positions[2] == glm::dvec3(0, 9007199254740992, 0));

@@ -76,7 +76,8 @@ TEST_CASE("OFF: the header and the data need not stand one record a line") {
     CHECK(mesh.triangles == expected);
   }
   std::string all = "STCNOFF 3 1 0";
-  for (const char* const p : {"0 0 0", "1 0 0", "0 1 0"}) all += std::string(" ") + p + " 0 0 1  0.5 0.5 0.5 1  0.25 0.75";
+  for (const char* const p : {"0 0 0", "1 0 0", "0 1 0"})
+    all += std::string(" ") + p + " 0 0 1  0.5 0.5 0.5 1  0.25 0.75";
   CHECK(readMesh(files.write("b.off", all + " 3 0 1 2")).triangles == std::vector<Triangle>{{0, 1, 2}});
 }
 

@@ -61,8 +61,9 @@ TEST_CASE("PLY: the three line ends in the header, before binary data that begin
       PlyData data(format);
       for (int v = 0; v < 3; ++v) data.put("uchar", 10).put("uchar", v == 1).put("uchar", v == 2);
       data.list("uchar", "uchar", {0, 1, 2});
-      std::string bytes = "ply\nformat FORMAT 1.0\nelement vertex 3\nproperty uchar x\nproperty uchar y\nproperty uchar z\n"
-                          "element face 1\nproperty list uchar uchar vertex_index\nend_header\n";
+      std::string bytes =
+          "ply\nformat FORMAT 1.0\nelement vertex 3\nproperty uchar x\nproperty uchar y\nproperty uchar z\n"
+          "element face 1\nproperty list uchar uchar vertex_index\nend_header\n";
       for (std::size_t at = 0; (at = bytes.find('\n', at)) != bytes.npos; at += end.size()) bytes.replace(at, 1, end);
       const Mesh mesh = readMesh(files.write("b.ply", data.file(bytes)));
       REQUIRE(mesh.positions.size() == 3);
@@ -111,7 +112,12 @@ TEST_CASE("PLY: elements in any order, with others and with lists before, betwee
           .list("int", "ushort", {double(t[0]), double(t[1]), double(t[2])})
           .put("char", -1);
     for (const glm::dvec3& p : kPositions)
-      data.list("uint", "char", {-1}).put("int", 3).put("float", p.x).put("float", p.y).list("uchar", "int", {}).put("float", p.z);
+      data.list("uint", "char", {-1})
+          .put("int", 3)
+          .put("float", p.x)
+          .put("float", p.y)
+          .list("uchar", "int", {})
+          .put("float", p.z);
     data.list("uchar", "int", {1, 2}).put("float", 9);
     const std::string header =
         kBegin +
@@ -163,8 +169,9 @@ TEST_CASE("PLY: infinite and NaN values, large numbers and small ones, are the s
       data.put("float", value).put("double", 1e300).put("double", 0.1f).put("float", value);
     putFaces(data);
     const Mesh mesh = readMesh(
-        files.write("a.ply", data.file(kBegin + "element vertex 4\nproperty float x\nproperty double y\nproperty double "
-                                                "z\nproperty float quality\n" +
+        files.write("a.ply", data.file(kBegin +
+                                       "element vertex 4\nproperty float x\nproperty double y\nproperty double "
+                                       "z\nproperty float quality\n" +
                                        kFaces + "end_header\n")),
         {"quality", {}});
     CHECK(std::isnan(mesh.positions[0].x));
@@ -192,15 +199,20 @@ TEST_CASE("PLY: nothing of an element, faces of no corners, no faces at all") {
     PlyData points(format), empty(format), odd(format);
     putVertices(points);
     CHECK(readMesh(files.write("a.ply", points.file(kBegin + kVertices + "end_header\n"))).positions == kPositions);
-    CHECK(readMesh(files.write("a.ply", points.file(kBegin + kVertices + "element face 0\nend_header\n"))).triangles.empty());
+    CHECK(readMesh(files.write("a.ply", points.file(kBegin + kVertices + "element face 0\nend_header\n")))
+              .triangles.empty());
     CHECK(readMesh(files.write("a.ply", empty.file(kBegin + "element vertex 0\nproperty float x\nelement face "
                                                             "0\nproperty list uchar int vertex_index\nend_header")))
               .positions.empty());
     putVertices(odd);
-    odd.list("uchar", "int", {}).list("uchar", "int", {0, 1, 2}).list("uchar", "int", {1, 2}).list("uchar", "int", {0, 2, 3});
+    odd.list("uchar", "int", {})
+        .list("uchar", "int", {0, 1, 2})
+        .list("uchar", "int", {1, 2})
+        .list("uchar", "int", {0, 2, 3});
     odd.list("uchar", "int", {3});
     const Mesh mesh = readMesh(files.write(
-        "b.ply", odd.file(kBegin + kVertices + "element face 5\nproperty list uchar int vertex_indices\nend_header\n")));
+        "b.ply",
+        odd.file(kBegin + kVertices + "element face 5\nproperty list uchar int vertex_indices\nend_header\n")));
     CHECK(mesh.triangles == kTriangles);
     REQUIRE(mesh.notes.size() == 1);
     CHECK(mesh.notes[0].starts_with("3 faces have fewer than three corners"));
@@ -216,9 +228,9 @@ TEST_CASE("PLY: triangle strips face one way, with -1 between them") {
       PlyData data(format);
       putVertices(data);
       data.list("int", type, {0, 1, 3, 2, end, 2, 3, 0, end});
-      const Mesh mesh = readMesh(files.write(
-          "a.ply", data.file(kBegin + kVertices + "element tristrips 1\nproperty list int " + type +
-                             " vertex_indices\nend_header\n")));
+      const Mesh mesh =
+          readMesh(files.write("a.ply", data.file(kBegin + kVertices + "element tristrips 1\nproperty list int " +
+                                                  type + " vertex_indices\nend_header\n")));
       CHECK(mesh.triangles == std::vector<Triangle>{{0, 1, 3}, {3, 1, 2}, {2, 3, 0}});
     }
   }
@@ -264,9 +276,11 @@ TEST_CASE("PLY: what is broken is named with its place") {
     const std::string header = kBegin + kVertices + kFaces + "end_header\n";
     CHECK(readError(files, "a.ply", data.file(header)).find("the file ends early, in face") != std::string::npos);
     length.put("char", -3);
-    CHECK(readError(files, "a.ply", data.file(kBegin + kVertices + "element face 1\nproperty list char int "
-                                                                   "vertex_index\nend_header\n") +
-                                        length.bytes())
+    CHECK(readError(files, "a.ply",
+                    data.file(kBegin + kVertices +
+                              "element face 1\nproperty list char int "
+                              "vertex_index\nend_header\n") +
+                        length.bytes())
               .find("vertex_index of face 0: a list of length -3") != std::string::npos);
     std::string many = header;
     many.replace(many.find("face 2"), 6, "face 9223372036854775807");

@@ -79,12 +79,12 @@ TEST_CASE("PLY: broken files are refused where they are broken") {
   CHECK(readError(files, "a.ply", "plx\n").starts_with("a.ply:1: 'ply' would be right"));
   CHECK(readError(files, "a.ply", good.substr(0, good.find("end_header"))).find("the file ends before end_header") !=
         std::string::npos);
-  CHECK(readError(files, "a.ply", good.substr(0, good.size() - 4)) == "a.ply:14: the file ends early, in vertex_indices of face 0");
+  CHECK(readError(files, "a.ply", good.substr(0, good.size() - 4)) ==
+        "a.ply:14: the file ends early, in vertex_indices of face 0");
   CHECK(readError(files, "a.ply", header("ascii", "3", "1") + "0 0 0\nnil 0 0\n0 1 0\n3 0 1 2\n") ==
         "a.ply:12: x: 'nil' is not a number");
-  CHECK(
-      readError(files, "a.ply", header("ascii", "3", "9000") + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2") ==
-      "a.ply:14: the file ends early, in face");
+  CHECK(readError(files, "a.ply", header("ascii", "3", "9000") + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2") ==
+        "a.ply:14: the file ends early, in face");
   CHECK(readError(files, "a.ply", good + "3 0 1 2\n").starts_with("a.ply:15: '3' is left after the last element"));
   const std::string whole = binary(false);
   CHECK(readError(files, "a.ply", whole.substr(0, whole.size() - 3)).find("the file ends early") != std::string::npos);

@@ -12,8 +12,9 @@
 namespace tessera {
 
 inline const std::vector<std::string> kPlyFormats{"ascii", "binary_little_endian", "binary_big_endian"};
-inline const std::vector<std::string> kPlyTypes{"char",   "int8", "uchar", "uint8",  "short",  "int16",   "ushort", "uint16",
-                                                "int",    "int32", "uint", "uint32", "float",  "float32", "double", "float64"};
+inline const std::vector<std::string> kPlyTypes{"char",   "int8",    "uchar",  "uint8",  "short", "int16",
+                                                "ushort", "uint16",  "int",    "int32",  "uint",  "uint32",
+                                                "float",  "float32", "double", "float64"};
 
 class PlyData {
  public:

@@ -81,7 +81,8 @@ TEST_CASE("STL: text is read by words, not by lines") {
     if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
   CHECK(readMesh(files.write("b.stl", capitals)).triangles == kExpected);
   std::string normal = kText;
-  CHECK(readMesh(files.write("b.stl", normal.replace(normal.find("0 0 1"), 5, "nan -inf 1e99"))).triangles == kExpected);
+  CHECK(readMesh(files.write("b.stl", normal.replace(normal.find("0 0 1"), 5, "nan -inf 1e99"))).triangles ==
+        kExpected);
 }
 
 TEST_CASE("STL: several solids in a file, and solids with no facet") {
@@ -94,8 +95,8 @@ TEST_CASE("STL: several solids in a file, and solids with no facet") {
     CHECK(mesh.positions.size() == 4);
   }
   const std::string one = "facet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 endloop endfacet ";
-  CHECK(readMesh(files.write("a.stl", "solid a " + one + "endsolid a solid b " + one + one + "endsolid b")).triangles.size() ==
-        3);
+  CHECK(readMesh(files.write("a.stl", "solid a " + one + "endsolid a solid b " + one + one + "endsolid b"))
+            .triangles.size() == 3);
   CHECK(readMesh(files.write("a.stl", "solid\nendsolid\n")).triangles.empty());
   CHECK(readMesh(files.write("a.stl", "solid my solid\n" + one + "endsolid my solid\n")).triangles.size() == 1);
 }

@@ -2,6 +2,7 @@
 #include "datasets/text.h"
 
 #include <cmath>
+
 #include "fixture.h"
 
 using namespace tessera;
@@ -15,13 +16,17 @@ struct Format {
 const std::vector<Format> kFormats{
     {"a.obj", "# one triangle\nv 0 0 0\nv 1 0 0\nv 0 1 0\n\ng a\\\n  b\nf 1 2 \\\n3\n"},
     {"a.off", "OFF\n# one triangle\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n\n3 0 1 2\n"},
-    {"a.stl", "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid\n"},
+    {"a.stl",
+     "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 "
+     "0\nendloop\nendfacet\nendsolid\n"},
     {"a.ply",
-     "ply\nformat ascii 1.0\ncomment one triangle\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+     "ply\nformat ascii 1.0\ncomment one triangle\nelement vertex 3\nproperty float x\nproperty float y\nproperty "
+     "float z\n"
      "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"},
     {"a.toml", "# one triangle\n[[mesh]]\nsource = \"mesh.off\"\n[camera]\neye = [0, 0, 5]\ntarget = [0, 0, 0]\n"},
     {"a.replay",
-     "tessera-replay 1\nname a b\nsize 8 8\nvertices 3\n00000000 00000000 00000000 3f800000\n3f800000 00000000 00000000 "
+     "tessera-replay 1\nname a b\nsize 8 8\nvertices 3\n00000000 00000000 00000000 3f800000\n3f800000 00000000 "
+     "00000000 "
      "3f800000\n00000000 3f800000 00000000 3f800000\ntriangles 1\n0 1 2\nend\n"},
 };
 
@@ -52,8 +57,8 @@ TEST_CASE("A byte order mark and the three line ends, mixed too, change nothing 
   for (const auto& [name, text] : kFormats) {
     const Scene expected = loadInput(files.write(name, text));
     REQUIRE(expected.triangles.size() == 1);
-    for (const std::vector<std::string>& ends : std::vector<std::vector<std::string>>{
-             {"\n"}, {"\r\n"}, {"\r"}, {"\n", "\r\n", "\r"}, {"\r", "\r\n", "\n"}}) {
+    for (const std::vector<std::string>& ends :
+         std::vector<std::vector<std::string>>{{"\n"}, {"\r\n"}, {"\r"}, {"\n", "\r\n", "\r"}, {"\r", "\r\n", "\n"}}) {
       for (const std::string mark : {"", "\xef\xbb\xbf"}) {
         INFO(name << ", " << ends.size() << " kinds of end, mark of " << mark.size());
         std::string other = mark + withEnds(text, ends);
@@ -80,7 +85,8 @@ TEST_CASE("UTF-16 and UTF-32 are refused by name in any text format") {
 
 TEST_CASE("The line of a mistake is counted by the three line ends") {
   const Files files;
-  for (const std::vector<std::string>& ends : std::vector<std::vector<std::string>>{{"\n"}, {"\r\n"}, {"\r"}, {"\n", "\r"}}) {
+  for (const std::vector<std::string>& ends :
+       std::vector<std::vector<std::string>>{{"\n"}, {"\r\n"}, {"\r"}, {"\n", "\r"}}) {
     CHECK(readError(files, "a.obj", withEnds("v 0 0 0\n#\n# x\nv 1 x 0\n", ends)).starts_with("a.obj:4: "));
     CHECK(readError(files, "a.off", withEnds("OFF\n3 1 0\n0 0 0\n#\n #\n1 x 0\n", ends)).starts_with("a.off:6: "));
     const std::string toml = files.write("a.toml", withEnds("size = [8, 8]\n#\nsizes = 1\n", ends));

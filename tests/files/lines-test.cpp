@@ -3,8 +3,8 @@
 #include <string>
 #include <thread>
 
-#include "tests/support/error-line.h"
 #include "fixture.h"
+#include "tests/support/error-line.h"
 
 namespace tessera::test {
 namespace fs = std::filesystem;

@@ -12,8 +12,8 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "tests/support/error-line.h"
 #include "fixture.h"
+#include "tests/support/error-line.h"
 
 namespace tessera::test {
 namespace fs = std::filesystem;
@@ -50,8 +50,7 @@ TEST_CASE("A file that did not arrive as it should leaves the old one") {
   check(5, "new", "3 of 5 bytes arrived");
   {
     const FileLimit limit(1000);
-    const std::string line =
-        lineOf(ExitCode::kFailure, [&] { writeWhole(folder / "a", std::string(5000, 'x')); });
+    const std::string line = lineOf(ExitCode::kFailure, [&] { writeWhole(folder / "a", std::string(5000, 'x')); });
     CHECK(contains(line, "/a: could not be written: File too large"));
   }
   CHECK(folder.read("a") == "old");

@@ -1,13 +1,14 @@
 // Temporary names are new, one's own, and cleared when their run is gone.
+#include "host/temporary.h"
+
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
 
-#include "tests/support/error-line.h"
 #include "fixture.h"
-#include "host/temporary.h"
+#include "tests/support/error-line.h"
 
 namespace tessera::test {
 namespace fs = std::filesystem;

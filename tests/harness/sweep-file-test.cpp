@@ -159,7 +159,8 @@ TEST_CASE("A mistake in a sweep file is one line with its place and key") {
       {kEnd, "[truth]\nshade = \"flat\"", ":9:1: truth.shade: does not change what is right"},
       {kEnd, "[truth]\nfill = \"left\"", ":9:8: truth.fill: no value 'left'"},
       // for the report
-      {kEnd, "[plot]\ncurves = [\"tile\"]", ":9:1: [plot] has no key 'curves'; did you mean curve? There are curve, against"},
+      {kEnd, "[plot]\ncurves = [\"tile\"]",
+       ":9:1: [plot] has no key 'curves'; did you mean curve? There are curve, against"},
       {kEnd, "[plot]\ncurve = [\"edge\"]", ":9:10: plot.curve: no 'edge'; there are tile, scene, size"},
       {kEnd, "[plot]\ncurve = \"tile\"", ":9:9: plot.curve: a list of names"},
       {kEnd, "[plot]\nagainst = [\"tile\", \"tile\"]", ":9:20: plot.against: 'tile' is there twice"},

@@ -76,7 +76,8 @@ TEST_CASE("an image says what it depends on in both formats") {
   CHECK_FALSE(facts.contains("kernels"));
   desk.tessera(kRender + "--set commit=depth24+lum8 -o b.exr");
   CHECK(factsOf(desk / "b.exr").at("approximate") == "commit=depth24+lum8");
-  desk.tessera(kRender + "--device vulkan --kernel 'transform=" TESSERA_SOURCE_DIR "/slang/by-hand/transform.comp' -o k.exr");
+  desk.tessera(kRender + "--device vulkan --kernel 'transform=" TESSERA_SOURCE_DIR
+                         "/slang/by-hand/transform.comp' -o k.exr");
   CHECK_THAT(factsOf(desk / "k.exr").at("kernels"), Contains("transform="));
 }
 

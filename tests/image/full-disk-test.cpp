@@ -58,7 +58,8 @@ TEST_CASE("an image for which there is no room is an error and the old file stay
     writeImage(path, frame);
     const std::string whole = bytesOf(path);
     std::ofstream(path, std::ios::binary) << "old";
-    for (const std::size_t room : {std::size_t{0}, std::size_t{1}, std::size_t{1000}, whole.size() / 2, whole.size() - 1}) {
+    for (const std::size_t room :
+         {std::size_t{0}, std::size_t{1}, std::size_t{1000}, whole.size() / 2, whole.size() - 1}) {
       CAPTURE(name, room);
       std::string line = "(nothing was thrown)";
       {
@@ -99,9 +100,9 @@ TEST_CASE("on a full file system render and compare leave the old images") {
   writeImage(folder.path() / "x.exr", frame);
   for (auto& hits : frame.hits) hits ^= hits >> 9 & 1;  // half of them, so that the picture is noise, too
   writeImage(folder.path() / "y.exr", frame);
-  for (const std::string command : {"render 'generate:icosphere?level=3' --size 512x512 -o disk/a.png",
-                                    "render 'generate:icosphere?level=3' --size 512x512 -o disk/a.exr",
-                                    "compare x.exr y.exr -o exr:disk/d.png"}) {
+  for (const std::string command :
+       {"render 'generate:icosphere?level=3' --size 512x512 -o disk/a.png",
+        "render 'generate:icosphere?level=3' --size 512x512 -o disk/a.exr", "compare x.exr y.exr -o exr:disk/d.png"}) {
     const auto outcome = test::run(folder.path(), "'" TESSERA_PROGRAM "' " + command);
     INFO(command << "\n" << outcome.text);
     CHECK(outcome.code == 1);

@@ -76,7 +76,7 @@ TEST_CASE("a small exr that unpacks to a lot is refused by a limit that an optio
   CHECK_THAT(refusal({.channels = 402, .width = 32768, .height = 32768}), Contains("402 channels") && limited);
   CHECK_THAT(refusal({.compression = 4, .width = 32768, .height = 32768}), limited);
   CHECK_THAT(refusal({.width = 16384, .height = 8192}), limited);
-  CHECK_THAT(refusal({.width = 8192, .height = 8192}), !Contains("--max-unpacked"));  // 512 MiB
+  CHECK_THAT(refusal({.width = 8192, .height = 8192}), !Contains("--max-unpacked"));               // 512 MiB
   CHECK_THAT(refusal({.channels = 100, .compression = 9, .width = 32768, .height = 1}), limited);  // 256 rows a chunk
   CHECK_THAT(refusal({.channels = 500}, 1 << 20), Contains("--max-unpacked") && Contains("the limit is 1 MiB"));
   CHECK_THAT(refusal({.channels = 500}, 1 << 30), Contains("holds channels") || Contains("not a whole OpenEXR file"));

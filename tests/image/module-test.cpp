@@ -26,9 +26,8 @@ TEST_CASE("a command without the image module says what is missing") {
   // Where the loader looks first there is a file of this name that is no library.
   const fs::path stand = folder.path() / "libtessera-image-io.so";
   std::fclose(std::fopen(stand.c_str(), "w"));
-  const Output written =
-      run(folder.path().string(), "LD_LIBRARY_PATH=\"$PWD\" '" TESSERA_PROGRAM
-                                  "' render 'generate:icosphere?level=1' --size 16x16 -o a.png");
+  const Output written = run(folder.path().string(), "LD_LIBRARY_PATH=\"$PWD\" '" TESSERA_PROGRAM
+                                                     "' render 'generate:icosphere?level=1' --size 16x16 -o a.png");
   INFO(written.text);
   CHECK(written.code == 1);
   CHECK_THAT(written.text, Contains("images can be neither read nor written") && Contains("libtessera-image-io.so"));

@@ -40,7 +40,8 @@ TEST_CASE("a tolerance is an amount or float32 steps and each counts what is bey
   CHECK(compare(a, b, Tolerances{.depth = {0, 1}, .attribute = {}, .colour = {}}).depth == 1);
   CHECK(compare(a, b, Tolerances{.depth = {0x1p-24, 0}, .attribute = {}, .colour = {}}).depth == 1);
   CHECK(compare(a, b, Tolerances{.depth = {0x1p-10, 0}, .attribute = {}, .colour = {}}).equal());
-  CHECK(compare(a, b, Tolerances{.depth = {0x1p-10, 0}, .attribute = {}, .colour = {}}).depthMaxAbs == 0x1p-10);  // it says how far they are apart
+  CHECK(compare(a, b, Tolerances{.depth = {0x1p-10, 0}, .attribute = {}, .colour = {}}).depthMaxAbs ==
+        0x1p-10);  // it says how far they are apart
   CHECK(compare(a, b, Tolerances{.depth = {}, .attribute = {}, .colour = {1, 0}}).depth == 2);
   b = a;
   b.colour[3].z = 0.75f;
@@ -111,9 +112,9 @@ TEST_CASE("compare takes tolerances and a share of the pixels and says what is b
   const auto said = compared(near + "--allow 1");
   CHECK_THAT(said.text, Contains("equal within the tolerances") && Contains("beyond tolerance") && Contains(" 41") &&
                             Contains("1 of 400 pixels differ beyond the tolerances; 1 may") && Contains(" -"));
-  for (const char* const wrong : {"--tolerance depth", "--tolerance hits=1", "--tolerance depth=-1", "--tolerance depth=x",
-                                  "--tolerance depth=nan", "--allow x", "--allow -1", "--at-most colour=",
-                                  "--max-unpacked many"}) {
+  for (const char* const wrong :
+       {"--tolerance depth", "--tolerance hits=1", "--tolerance depth=-1", "--tolerance depth=x",
+        "--tolerance depth=nan", "--allow x", "--allow -1", "--at-most colour=", "--max-unpacked many"}) {
     const auto refused = compared(wrong);
     INFO(wrong << "\n" << refused.text);
     CHECK(refused.code == 2);

@@ -56,7 +56,8 @@ TEST_CASE("A cache folder that cannot be written is one clear line") {
 
 TEST_CASE("A folder or a file in the place of a cached file is cleared away") {
   const Workshop shop;
-  const std::filesystem::path binary = shop.open().get(scaleRequest(Route::kSpirv)).binary, entry = binary.parent_path();
+  const std::filesystem::path binary = shop.open().get(scaleRequest(Route::kSpirv)).binary,
+                              entry = binary.parent_path();
   const auto heals = [&](const std::filesystem::path& path, bool file) {
     INFO(path);
     std::filesystem::remove_all(path);

@@ -19,7 +19,7 @@ const std::map<std::string, std::string> kSigns{{"glsl", "#version 450"},     {"
                                                 {"metal", "[[kernel]] void"}, {"cuda", "extern \"C\" __global__ void"}};
 
 /// How each target says where a buffer goes.
-const std::map<std::string, std::string> kPlaces{{"spirv", "binding"}, {"glsl", "binding"}, {"cpp", "offset"},
+const std::map<std::string, std::string> kPlaces{{"spirv", "binding"}, {"glsl", "binding"},  {"cpp", "offset"},
                                                  {"wgsl", "binding"},  {"hlsl", "register"}, {"metal", "buffer"},
                                                  {"cuda", "offset"}};
 

@@ -1,5 +1,5 @@
-// manifest.json: a host that knows nothing else runs the WGSL by it and gets the oracle's bits; its formulas are those of the
-// frame that it holds.
+// manifest.json: a host that knows nothing else runs the WGSL by it and gets the oracle's bits; its formulas are those
+// of the frame that it holds.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstring>
@@ -48,17 +48,23 @@ class Formula {
   double sum() {
     double result = product();
     for (;;) {
-      if (take("+")) result += product();
-      else if (take("-")) result -= product();
-      else return result;
+      if (take("+"))
+        result += product();
+      else if (take("-"))
+        result -= product();
+      else
+        return result;
     }
   }
   double product() {
     double result = factor();
     for (;;) {
-      if (take("*")) result *= factor();
-      else if (take("/")) result /= factor();
-      else return result;
+      if (take("*"))
+        result *= factor();
+      else if (take("/"))
+        result /= factor();
+      else
+        return result;
     }
   }
   double factor() {
@@ -98,7 +104,8 @@ void checkFormulas(const Json& manifest) {
     const Json& groups = command.at("groups");
     CHECK(groups.at(0).get<std::uint64_t>() * groups.at(1).get<std::uint64_t>() ==
           Formula(stage.at("groups"), uniforms).value());
-    for (const Json& field : stage.at("uniforms").at("fields")) CHECK(uniforms.contains(field.at("name").get<std::string>()));
+    for (const Json& field : stage.at("uniforms").at("fields"))
+      CHECK(uniforms.contains(field.at("name").get<std::string>()));
     for (const Json& binding : stage.at("bindings")) {
       INFO(binding.dump());
       const std::string buffer = command.at("buffers").at(binding.at("name").get<std::string>());

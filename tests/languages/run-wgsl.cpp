@@ -1,5 +1,5 @@
-// run-wgsl FOLDER: runs the kernels in it on a WebGPU device, knowing what its manifest.json says and nothing of Tessera.
-// Each output of the frame comes into FOLDER/NAME.out.
+// run-wgsl FOLDER: runs the kernels in it on a WebGPU device, knowing what its manifest.json says and nothing of
+// Tessera. Each output of the frame comes into FOLDER/NAME.out.
 #include <webgpu.h>
 #include <wgpu.h>
 
@@ -65,7 +65,8 @@ class Host {
     }
     for (const auto& [name, output] : manifest_.at("outputs").items()) {
       const Bytes data = get(buffers_.at(output.at("buffer")));
-      std::ofstream(folder_ + "/" + name + ".out", std::ios::binary).write(data.data(), static_cast<std::streamsize>(data.size()));
+      std::ofstream(folder_ + "/" + name + ".out", std::ios::binary)
+          .write(data.data(), static_cast<std::streamsize>(data.size()));
     }
   }
 
@@ -98,7 +99,8 @@ class Host {
     };
     if (!json.at("uniforms").is_null()) add(json.at("uniforms"), WGPUBufferBindingType_Uniform);
     for (const Json& binding : json.at("bindings"))
-      add(binding, binding.at("access") == "read" ? WGPUBufferBindingType_ReadOnlyStorage : WGPUBufferBindingType_Storage);
+      add(binding,
+          binding.at("access") == "read" ? WGPUBufferBindingType_ReadOnlyStorage : WGPUBufferBindingType_Storage);
     WGPUBindGroupLayoutDescriptor layout = WGPU_BIND_GROUP_LAYOUT_DESCRIPTOR_INIT;
     layout.entryCount = entries.size();
     layout.entries = entries.data();

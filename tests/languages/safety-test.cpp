@@ -18,7 +18,8 @@ void fails(const Bench::Edits& edits, const std::vector<std::string>& said) {
   desk.write("a.exr", "mine");
   const Bench bench;
   const fs::path kernel = bench.edited("by-depth.slang", edits);
-  const auto outcome = desk.tessera("render two.obj --size 24x24 -o a.exr --set shade=id --kernel shade=" + kernel.string());
+  const auto outcome =
+      desk.tessera("render two.obj --size 24x24 -o a.exr --set shade=id --kernel shade=" + kernel.string());
   INFO(outcome.err);
   CHECK(outcome.code == 2);
   CHECK(outcome.complainsOnce());
@@ -30,10 +31,13 @@ void fails(const Bench::Edits& edits, const std::vector<std::string>& said) {
 }  // namespace
 
 TEST_CASE("A write past a buffer is an error with kernel and index and buffer") {
-  fails({{"colour[3 * pixel + channel] =", "colour[3 * pixel + channel + 1] ="}}, {"index 1728 of 1728 elements of `colour`"});
+  fails({{"colour[3 * pixel + channel] =", "colour[3 * pixel + channel + 1] ="}},
+        {"index 1728 of 1728 elements of `colour`"});
 }
 
-TEST_CASE("A negative index is one") { fails({{"depth[pixel]", "depth[int(pixel % 2) - 1]"}}, {"index -1 of 576 elements of `depth`"}); }
+TEST_CASE("A negative index is one") {
+  fails({{"depth[pixel]", "depth[int(pixel % 2) - 1]"}}, {"index -1 of 576 elements of `depth`"});
+}
 
 TEST_CASE("An index past a group's array is one") {
   fails({{"[shader", "groupshared float few[4];\n[shader"}, {"asfloat(depth[pixel])", "few[pixel % 5]"}},
@@ -51,14 +55,15 @@ TEST_CASE("A sweep's kernels from outside its folder run when that is allowed") 
   const auto sweep = [&](const std::string& file) {
     desk.write("swept/sweep.toml",
                "title = \"t\"\nquestion = \"q\"\nsizes = [16]\nrounds = 1\n[scenes]\ngrid = \"generate:grid\"\n"
-               "[set]\nshade = \"id\"\n[kernels]\nshade = [\"" + file + "\"]\n");
+               "[set]\nshade = \"id\"\n[kernels]\nshade = [\"" +
+                   file + "\"]\n");
   };
   // No compiler takes it, so that a line about it tells that it was compiled.
   desk.write("elsewhere.slang", "[numthreads(1, 1, 1)] void f() { not Slang }");
   fs::create_symlink(desk.path() / "elsewhere.slang", desk.path() / "swept/link.slang");
   fs::create_symlink(desk.path(), desk.path() / "swept/up");
-  const std::vector<std::string> foreign{"../elsewhere.slang", "link.slang", "up/elsewhere.slang", "inner/../../elsewhere.slang",
-                                         (desk.path() / "elsewhere.slang").string()};
+  const std::vector<std::string> foreign{"../elsewhere.slang", "link.slang", "up/elsewhere.slang",
+                                         "inner/../../elsewhere.slang", (desk.path() / "elsewhere.slang").string()};
   for (const std::string& file : foreign) {
     sweep(file);
     const auto refused = desk.tessera("sweep swept/sweep.toml --out results");

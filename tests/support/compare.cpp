@@ -32,9 +32,8 @@ std::string difference(const Framebuffer& got, const Framebuffer& expected) {
   return fmt::format(
       "of {} pixels {} differ in id, {} in depth, {} in hits, {} in colour, {} in values; first ({}, {}):{}; "
       "expected{}",
-      d.pixels, d.id.value_or(0), d.depth.value_or(0), d.hits.value_or(0), d.colour.value_or(0), d.attribute.value_or(0),
-      d.firstX, d.firstY, pixelText(got, k),
-      pixelText(expected, k));
+      d.pixels, d.id.value_or(0), d.depth.value_or(0), d.hits.value_or(0), d.colour.value_or(0),
+      d.attribute.value_or(0), d.firstX, d.firstY, pixelText(got, k), pixelText(expected, k));
 }
 
 std::string difference(const Counters& got, const reference::Counts& expected) {

@@ -1,8 +1,8 @@
 // Two sweeps that were begun, or resumed, at once: the second leaves what the first has written as it is.
 #include "experiments/harness/journal.h"
 
-#include <catch2/catch.hpp>
 #include <array>
+#include <catch2/catch.hpp>
 #include <fstream>
 
 #include "datasets/random.h"
@@ -19,9 +19,14 @@ using namespace tessera::harness;
 TEST_CASE("A journal that another sweep has begun or added to stays as it is") {
   const TemporaryFolder desk(std::filesystem::temp_directory_path(), "tessera-journal");
   const auto& folder = desk.path();
-  const Json head{{"kind", "head"}, {"schema_version", kRowSchemaVersion},
+  const Json head{{"kind", "head"},
+                  {"schema_version", kRowSchemaVersion},
                   {"sweep", {{"title", "T"}, {"question", "Q"}, {"sha256", "0"}}},
-                  {"quick", false}, {"rounds", 1}, {"repeats", 1}, {"jobs", Json::array()}, {"cells", Json::array()}};
+                  {"quick", false},
+                  {"rounds", 1},
+                  {"repeats", 1},
+                  {"jobs", Json::array()},
+                  {"cells", Json::array()}};
   Journal::create(folder, head);
   const std::string first = readFile(journalOf(folder));
   CHECK_THROWS_WITH(Journal::create(folder, head), Catch::Contains("another sweep has begun there meanwhile"));
@@ -43,16 +48,39 @@ namespace {
 std::string smallJournal() {
   const Json sweep{{"title", "T"}, {"question", "Q"}, {"sha256", "0"}};
   Json cell{{"cell", 0}, {"name", "n"}, {"command", "c"}, {"sweep", sweep}};
-  cell["sweep"].update({{"cell", 0}, {"group", 0}, {"reference", true}, {"twin", false}, {"asked", {{"tile", "8"}}},
-                        {"swept", {"tile"}}, {"scene", "s"}, {"device", "cpu"}, {"threads", 1}});
-  const Json row{{"schema_version", kRowSchemaVersion}, {"run_id", "r"}, {"variant", {{"tile", "8"}}},
-                 {"scene", {{"name", "s"}, {"size", {8, 8}}}}, {"status", "ok"}, {"error", {{"id_mismatch", nullptr}}},
-                 {"provenance", {{"cpu", "c"}}}, {"clock", "wall"}};
-  return lineOf({{"kind", "head"}, {"schema_version", kRowSchemaVersion}, {"sweep", sweep}, {"quick", false},
-                 {"rounds", 2}, {"repeats", 1}, {"jobs", {"s@cpu"}}, {"cells", Json::array({cell})}}) +
+  cell["sweep"].update({{"cell", 0},
+                        {"group", 0},
+                        {"reference", true},
+                        {"twin", false},
+                        {"asked", {{"tile", "8"}}},
+                        {"swept", {"tile"}},
+                        {"scene", "s"},
+                        {"device", "cpu"},
+                        {"threads", 1}});
+  const Json row{{"schema_version", kRowSchemaVersion},
+                 {"run_id", "r"},
+                 {"variant", {{"tile", "8"}}},
+                 {"scene", {{"name", "s"}, {"size", {8, 8}}}},
+                 {"status", "ok"},
+                 {"error", {{"id_mismatch", nullptr}}},
+                 {"provenance", {{"cpu", "c"}}},
+                 {"clock", "wall"}};
+  return lineOf({{"kind", "head"},
+                 {"schema_version", kRowSchemaVersion},
+                 {"sweep", sweep},
+                 {"quick", false},
+                 {"rounds", 2},
+                 {"repeats", 1},
+                 {"jobs", {"s@cpu"}},
+                 {"cells", Json::array({cell})}}) +
          lineOf({{"kind", "session"}, {"session", 0}}) +
          lineOf({{"kind", "cell"}, {"cell", 0}, {"session", 0}, {"frame_s", 0.5}, {"row", row}}) +
-         lineOf({{"kind", "sample"}, {"cell", 0}, {"round", 0}, {"repeat", 0}, {"session", 0}, {"total_ns", 5},
+         lineOf({{"kind", "sample"},
+                 {"cell", 0},
+                 {"round", 0},
+                 {"repeat", 0},
+                 {"session", 0},
+                 {"total_ns", 5},
                  {"stages", {{"setup", 5}}}});
 }
 
@@ -76,9 +104,11 @@ TEST_CASE("What is wrong in a journal is said with its line and key") {
            {"\"frame_s\":0.5,", "", ":3: no line of a sweep's journal: frame_s: is missing"},
            {"\"status\":\"ok\"", "\"status\":\"fine\"", ":3: no line of a sweep's journal: status: is \"fine\""},
            {"\"provenance\":{", "\"provenances\":{", ":3: no line of a sweep's journal: provenance: is missing"},
-           {"\"id_mismatch\":null", "\"id_mismatch\":[]", ":3: no line of a sweep's journal: error.id_mismatch: is a list"},
+           {"\"id_mismatch\":null", "\"id_mismatch\":[]",
+            ":3: no line of a sweep's journal: error.id_mismatch: is a list"},
            {"\"twin\":false", "\"twin\":0", ":1: no line of a sweep's journal: twin: is 0"},
-           {"\"cpu\":\"c\"", "\"cpu\":" + std::string(99, '[') + std::string(99, ']'), ":3: no line of a sweep's journal: nested"}}) {
+           {"\"cpu\":\"c\"", "\"cpu\":" + std::string(99, '[') + std::string(99, ']'),
+            ":3: no line of a sweep's journal: nested"}}) {
     std::string text = whole;
     text.replace(text.find(part), part.size(), other);
     put(journalOf(desk.path()), text);
@@ -107,22 +137,31 @@ TEST_CASE("Damaged journals are read or refused and never more") {
   INFO("seed " << kSeed);
   Random random(kSeed);
   const auto below = [&](std::size_t n) { return static_cast<std::size_t>(random.bits() % n); };
-  const std::array words{"null", "-1", "1e400", "\"x\"", "[]", "{}", "true", "18446744073709551615", "0.5", "\x01", "\xff", "\n", "}", "\""};
+  const std::array words{"null", "-1",   "1e400", "\"x\"", "[]", "{}", "true", "18446744073709551615",
+                         "0.5",  "\x01", "\xff",  "\n",    "}",  "\""};
   std::size_t refused = 0;
   for (int run = 0; run < 2000; ++run) {
     std::string text = whole;
     for (std::size_t change = 0; change <= below(3); ++change) {
       const std::size_t at = below(text.size());
       switch (below(5)) {
-        case 0: text[at] = static_cast<char>(random.bits()); break;
-        case 1: text.erase(at, 1 + below(20)); break;
-        case 2: text.insert(at, words[below(words.size())]); break;
+        case 0:
+          text[at] = static_cast<char>(random.bits());
+          break;
+        case 1:
+          text.erase(at, 1 + below(20));
+          break;
+        case 2:
+          text.insert(at, words[below(words.size())]);
+          break;
         case 3: {  // a value for another
           const std::size_t colon = text.find(':', at);
-          if (colon != std::string::npos) text.replace(colon + 1, text.find_first_of(",}", colon) - colon - 1, words[below(words.size())]);
+          if (colon != std::string::npos)
+            text.replace(colon + 1, text.find_first_of(",}", colon) - colon - 1, words[below(words.size())]);
           break;
         }
-        default: text.resize(at + 1);
+        default:
+          text.resize(at + 1);
       }
     }
     put(journalOf(desk.path()), text);

@@ -129,8 +129,9 @@ TEST_CASE("A worker that is killed costs the cell that it was at") {
 
 TEST_CASE("Where the reference is refused there is no ratio and where none is named another cell takes its place") {
   Desk desk;
-  const std::string sweep = head("rounds = 2\n[scenes]\nball = \"generate:icosphere?level=1\"\n[axes]\n"
-                                 "projection = [\"orthographic\", \"perspective\"]\n");
+  const std::string sweep = head(
+      "rounds = 2\n[scenes]\nball = \"generate:icosphere?level=1\"\n[axes]\n"
+      "projection = [\"orthographic\", \"perspective\"]\n");
   desk.write("first.toml", sweep);
   REQUIRE(desk.tessera("sweep first.toml --out first").code == 0);
   const auto rows = linesOf(desk, "first/rows.jsonl");

@@ -34,18 +34,19 @@ TEST_CASE("A driver that the environment hides or breaks is named with its varia
   desk.write("no-elf.json", icd("./no-elf.so"));
   desk.write("no-driver.json", icd("libz.so.1"));
   const std::string here = desk.path().string() + "/";
-  const std::vector<Fault> faults{{"VK_ICD_FILENAMES=/nonexistent", "no such file"},
-                                  {"VK_ICD_FILENAMES=", "VK_ICD_FILENAMES= (empty)"},
-                                  {"VK_DRIVER_FILES=/nonexistent/a.json:/nonexistent/b.json", "/nonexistent/b.json)"},
-                                  {"VK_LOADER_DRIVERS_SELECT=nosuch*", "no Vulkan driver"},
-                                  {"VK_LOADER_DRIVERS_DISABLE=*", "no Vulkan driver"},
-                                  {"VK_ICD_FILENAMES=" + here + "broken.json", "broken.json: not a valid JSON file"},
-                                  {"VK_ADD_DRIVER_FILES=" + here + "broken.json", "broken.json: not a valid JSON file"},
-                                  {"VK_ICD_FILENAMES=" + here + "empty.json", "no Vulkan driver"},
-                                  {"VK_ICD_FILENAMES=" + here + "no-icd.json", "no-icd.json"},
-                                  {"VK_DRIVER_FILES=" + here + "no-library.json", "/nonexistent/libdriver.so: cannot open"},
-                                  {"VK_ICD_FILENAMES=" + here + "no-elf.json", "no-elf.so: "},
-                                  {"VK_ICD_FILENAMES=" + here + "no-driver.json", "libz.so.1"}};
+  const std::vector<Fault> faults{
+      {"VK_ICD_FILENAMES=/nonexistent", "no such file"},
+      {"VK_ICD_FILENAMES=", "VK_ICD_FILENAMES= (empty)"},
+      {"VK_DRIVER_FILES=/nonexistent/a.json:/nonexistent/b.json", "/nonexistent/b.json)"},
+      {"VK_LOADER_DRIVERS_SELECT=nosuch*", "no Vulkan driver"},
+      {"VK_LOADER_DRIVERS_DISABLE=*", "no Vulkan driver"},
+      {"VK_ICD_FILENAMES=" + here + "broken.json", "broken.json: not a valid JSON file"},
+      {"VK_ADD_DRIVER_FILES=" + here + "broken.json", "broken.json: not a valid JSON file"},
+      {"VK_ICD_FILENAMES=" + here + "empty.json", "no Vulkan driver"},
+      {"VK_ICD_FILENAMES=" + here + "no-icd.json", "no-icd.json"},
+      {"VK_DRIVER_FILES=" + here + "no-library.json", "/nonexistent/libdriver.so: cannot open"},
+      {"VK_ICD_FILENAMES=" + here + "no-elf.json", "no-elf.so: "},
+      {"VK_ICD_FILENAMES=" + here + "no-driver.json", "libz.so.1"}};
   for (const auto& [variable, cause] : faults) {
     const auto rendered = desk.tessera("render two.obj -o a.png --size 16x16 --device vulkan", variable);
     INFO(variable << "\n" << rendered.err);
@@ -84,7 +85,8 @@ TEST_CASE("A file that is not there is said beside the drivers that are") {
 
 TEST_CASE("What tessera sets itself is not held against the user") {
   Desk desk;
-  const auto outcome = desk.tessera("render generate:grid -o a.png --size 16x16 --device vulkan", "VK_LOADER_DRIVERS_SELECT=nosuch");
+  const auto outcome =
+      desk.tessera("render generate:grid -o a.png --size 16x16 --device vulkan", "VK_LOADER_DRIVERS_SELECT=nosuch");
   CHECK(outcome.code == 2);
   CHECK_FALSE(contains(outcome.err, "VK_ADD_DRIVER_FILES"));
   CHECK_FALSE(contains(desk.tessera("render generate:grid -o a.png --device vulkan:mine").err, "VK_ADD_DRIVER_FILES"));
