@@ -7,20 +7,6 @@
 
 using tessera::test::Desk;
 
-namespace {
-
-void checkRefused(const Desk& desk, const std::string& arguments, const std::string& named) {
-  const auto before = desk.names();
-  const auto outcome = desk.tessera(arguments);
-  INFO("tessera " << arguments << "\n" << outcome.err << outcome.out);
-  CHECK(outcome.code == 2);
-  CHECK(outcome.complainsOnce());
-  CHECK(outcome.err.find(named) != std::string::npos);
-  CHECK(desk.names() == before);
-}
-
-}  // namespace
-
 TEST_CASE("Input that is missing or broken is refused") {
   Desk desk;
   desk.write("empty.obj", "");

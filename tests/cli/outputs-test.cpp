@@ -16,16 +16,6 @@ namespace {
 
 const std::string kRender = "render two.obj --size 16x16 ";
 
-void refused(const Desk& desk, const std::string& arguments, const std::string& named) {
-  const auto before = desk.names();
-  const auto outcome = desk.tessera(arguments);
-  INFO("tessera " << arguments << "\n" << outcome.err << outcome.out);
-  CHECK(outcome.code == 2);
-  CHECK(outcome.complainsOnce());
-  CHECK(outcome.err.find(named) != std::string::npos);
-  CHECK(desk.names() == before);
-}
-
 std::size_t lines(const std::string& text) {
   return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
 }
@@ -77,16 +67,16 @@ TEST_CASE("Two outputs of one file and outputs that are inputs are refused") {
   desk.write("scene.toml", "size = [16, 16]\n[[mesh]]\nsource = \"two.obj\"\n");
   std::filesystem::create_symlink("two.obj", desk.path() / "two.png");
   std::filesystem::create_hard_link(desk.path() / "two.obj", desk.path() / "hard.png");
-  refused(desk, kRender + "-o two.png", "is the input two.obj");
-  refused(desk, kRender + "-o hard.png", "is the input two.obj");
-  refused(desk, "render scene.toml --json two.obj", "is an input");
-  refused(desk, "render scene.toml --json scene.toml", "is an input");
-  refused(desk, kRender + "--device vulkan --kernel transform=mine.comp --json mine.comp", "is an input");
-  refused(desk, "parity scene.toml --device cpu --replay two.obj", "two.obj");
-  refused(desk, "parity two.obj --device cpu --replay a --json ./a", "is the same file as");
-  refused(desk, kRender + "-o a.png -o a.png", "is named twice");
-  refused(desk, kRender + "-o a.png -o ./a.png", "is the same file as");
-  refused(desk, kRender + "-o png:- --json -", "is named twice");
+  checkRefused(desk, kRender + "-o two.png", "is the input two.obj");
+  checkRefused(desk, kRender + "-o hard.png", "is the input two.obj");
+  checkRefused(desk, "render scene.toml --json two.obj", "is an input");
+  checkRefused(desk, "render scene.toml --json scene.toml", "is an input");
+  checkRefused(desk, kRender + "--device vulkan --kernel transform=mine.comp --json mine.comp", "is an input");
+  checkRefused(desk, "parity scene.toml --device cpu --replay two.obj", "two.obj");
+  checkRefused(desk, "parity two.obj --device cpu --replay a --json ./a", "is the same file as");
+  checkRefused(desk, kRender + "-o a.png -o a.png", "is named twice");
+  checkRefused(desk, kRender + "-o a.png -o ./a.png", "is the same file as");
+  checkRefused(desk, kRender + "-o png:- --json -", "is named twice");
   CHECK(desk.read("two.obj") == tessera::test::twoTriangles());
 }
 

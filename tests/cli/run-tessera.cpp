@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 
 #include <algorithm>
+#include <catch2/catch.hpp>
 #include <cstdlib>
 #include <fstream>
 #include <regex>
@@ -65,6 +66,16 @@ Outcome Desk::tessera(const std::string& arguments, const std::string& before) c
                                           TESSERA_PROGRAM, arguments, out.string(), err.string());
   const int status = std::system(command.c_str());
   return {.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1, .out = readAll(out), .err = readAll(err)};
+}
+
+void checkRefused(const Desk& desk, const std::string& arguments, const std::string& named) {
+  const auto before = desk.names();
+  const auto outcome = desk.tessera(arguments);
+  INFO("tessera " << arguments << "\n" << outcome.err << outcome.out);
+  CHECK(outcome.code == 2);
+  CHECK(outcome.complainsOnce());
+  CHECK(outcome.err.find(named) != std::string::npos);
+  CHECK(desk.names() == before);
 }
 
 std::string twoTriangles() {

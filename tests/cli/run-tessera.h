@@ -34,6 +34,9 @@ class Desk {
   std::filesystem::path path_, streams_;
 };
 
+/// Runs and checks: exit code 2, one line that names `named`, no file made or lost.
+void checkRefused(const Desk& desk, const std::string& arguments, const std::string& named);
+
 /// Two triangles of which the nearer one hides a part of the other, as an .obj file.
 std::string twoTriangles();
 

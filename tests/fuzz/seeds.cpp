@@ -12,6 +12,7 @@
 #include "host/error.h"
 #include "host/image.h"
 #include "host/row.h"
+#include "tests/sweep/small-journal.h"
 
 namespace tessera {
 namespace {
@@ -107,39 +108,6 @@ std::string replay(const fs::path& folder) {
   return readFile(folder / "seed.replay");
 }
 
-/// Of one cell, checked and sampled once.
-std::string journal() {
-  using harness::Json, harness::lineOf;
-  const Json sweep{{"title", "T"}, {"question", "Q"}, {"sha256", "0"}};
-  Json cell{{"cell", 0}, {"name", "n"}, {"command", "c"}, {"sweep", sweep}};
-  cell["sweep"].update({{"cell", 0},
-                        {"group", 0},
-                        {"reference", true},
-                        {"twin", false},
-                        {"asked", {{"tile", "8"}}},
-                        {"swept", {"tile"}},
-                        {"scene", "s"},
-                        {"device", "cpu"},
-                        {"threads", 1}});
-  const Json row{{"schema_version", kRowSchemaVersion},
-                 {"run_id", "r"},
-                 {"variant", {{"tile", "8"}}},
-                 {"scene", {{"name", "s"}, {"size", {8, 8}}}},
-                 {"status", "ok"},
-                 {"error", {{"id_mismatch", nullptr}}},
-                 {"provenance", {{"cpu", "c"}}},
-                 {"clock", "wall"}};
-  const Json head{{"kind", "head"},    {"schema_version", kRowSchemaVersion},
-                  {"sweep", sweep},    {"quick", false},
-                  {"rounds", 2},       {"repeats", 1},
-                  {"jobs", {"s@cpu"}}, {"cells", Json::array({cell})}};
-  const Json sample{
-      {"kind", "sample"},        {"cell", 0}, {"round", 0}, {"repeat", 0}, {"session", 0}, {"total_ns", 5},
-      {"stages", {{"setup", 5}}}};
-  return lineOf(head) + lineOf({{"kind", "session"}, {"session", 0}}) +
-         lineOf({{"kind", "cell"}, {"cell", 0}, {"session", 0}, {"frame_s", 0.5}, {"row", row}}) + lineOf(sample);
-}
-
 /// What a scene has to be, whatever it was read from.
 void checkScene(const Scene& scene) {
   REQUIRE((scene.positions.empty() || scene.clip.empty()));
@@ -179,7 +147,7 @@ std::vector<Target> targets(const fs::path& folder) {
            [](const fs::path& path) {
              for (const bool quick : {false, true}) harness::cells(harness::readSweep(path, quick));
            }},
-          {"journal", ".jsonl", {journal()}, [](const fs::path& path) { harness::readJournal(path.parent_path()); }}};
+          {"journal", ".jsonl", {test::smallJournal()}, [](const fs::path& path) { harness::readJournal(path.parent_path()); }}};
 }
 
 }  // namespace tessera

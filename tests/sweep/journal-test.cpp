@@ -12,9 +12,11 @@
 #include "host/error.h"
 #include "host/files.h"
 #include "host/row.h"
+#include "tests/sweep/small-journal.h"
 
 using namespace tessera;
 using namespace tessera::harness;
+using tessera::test::smallJournal;
 
 TEST_CASE("A journal that another sweep has begun or added to stays as it is") {
   const TemporaryFolder desk(std::filesystem::temp_directory_path(), "tessera-journal");
@@ -43,46 +45,6 @@ TEST_CASE("A journal that another sweep has begun or added to stays as it is") {
 }
 
 namespace {
-
-/// A journal of one cell, checked and sampled once.
-std::string smallJournal() {
-  const Json sweep{{"title", "T"}, {"question", "Q"}, {"sha256", "0"}};
-  Json cell{{"cell", 0}, {"name", "n"}, {"command", "c"}, {"sweep", sweep}};
-  cell["sweep"].update({{"cell", 0},
-                        {"group", 0},
-                        {"reference", true},
-                        {"twin", false},
-                        {"asked", {{"tile", "8"}}},
-                        {"swept", {"tile"}},
-                        {"scene", "s"},
-                        {"device", "cpu"},
-                        {"threads", 1}});
-  const Json row{{"schema_version", kRowSchemaVersion},
-                 {"run_id", "r"},
-                 {"variant", {{"tile", "8"}}},
-                 {"scene", {{"name", "s"}, {"size", {8, 8}}}},
-                 {"status", "ok"},
-                 {"error", {{"id_mismatch", nullptr}}},
-                 {"provenance", {{"cpu", "c"}}},
-                 {"clock", "wall"}};
-  return lineOf({{"kind", "head"},
-                 {"schema_version", kRowSchemaVersion},
-                 {"sweep", sweep},
-                 {"quick", false},
-                 {"rounds", 2},
-                 {"repeats", 1},
-                 {"jobs", {"s@cpu"}},
-                 {"cells", Json::array({cell})}}) +
-         lineOf({{"kind", "session"}, {"session", 0}}) +
-         lineOf({{"kind", "cell"}, {"cell", 0}, {"session", 0}, {"frame_s", 0.5}, {"row", row}}) +
-         lineOf({{"kind", "sample"},
-                 {"cell", 0},
-                 {"round", 0},
-                 {"repeat", 0},
-                 {"session", 0},
-                 {"total_ns", 5},
-                 {"stages", {{"setup", 5}}}});
-}
 
 void put(const std::filesystem::path& path, const std::string& text) {
   std::ofstream file(path, std::ios::binary);

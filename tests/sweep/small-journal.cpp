@@ -1,0 +1,49 @@
+#include "tests/sweep/small-journal.h"
+
+#include "experiments/harness/journal.h"
+#include "host/row.h"
+
+namespace tessera::test {
+
+using harness::Json, harness::lineOf;
+
+std::string smallJournal() {
+  const Json sweep{{"title", "T"}, {"question", "Q"}, {"sha256", "0"}};
+  Json cell{{"cell", 0}, {"name", "n"}, {"command", "c"}, {"sweep", sweep}};
+  cell["sweep"].update({{"cell", 0},
+                        {"group", 0},
+                        {"reference", true},
+                        {"twin", false},
+                        {"asked", {{"tile", "8"}}},
+                        {"swept", {"tile"}},
+                        {"scene", "s"},
+                        {"device", "cpu"},
+                        {"threads", 1}});
+  const Json row{{"schema_version", kRowSchemaVersion},
+                 {"run_id", "r"},
+                 {"variant", {{"tile", "8"}}},
+                 {"scene", {{"name", "s"}, {"size", {8, 8}}}},
+                 {"status", "ok"},
+                 {"error", {{"id_mismatch", nullptr}}},
+                 {"provenance", {{"cpu", "c"}}},
+                 {"clock", "wall"}};
+  return lineOf({{"kind", "head"},
+                 {"schema_version", kRowSchemaVersion},
+                 {"sweep", sweep},
+                 {"quick", false},
+                 {"rounds", 2},
+                 {"repeats", 1},
+                 {"jobs", {"s@cpu"}},
+                 {"cells", Json::array({cell})}}) +
+         lineOf({{"kind", "session"}, {"session", 0}}) +
+         lineOf({{"kind", "cell"}, {"cell", 0}, {"session", 0}, {"frame_s", 0.5}, {"row", row}}) +
+         lineOf({{"kind", "sample"},
+                 {"cell", 0},
+                 {"round", 0},
+                 {"repeat", 0},
+                 {"session", 0},
+                 {"total_ns", 5},
+                 {"stages", {{"setup", 5}}}});
+}
+
+}  // namespace tessera::test
