@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <mapbox/earcut.hpp>
+#include <numeric>
 #include <set>
 
 #include "datasets/faces.h"
@@ -60,6 +61,27 @@ std::vector<std::array<double, 2>> project(const std::vector<glm::dvec3>& points
   return flat;
 }
 
+/// Takes the tips of spikes, sides walked out and back, out of `loop`, and gives their triangles, which have no area. They
+/// would make earcut cover what lies outside.
+std::vector<Triangle> takeSpikes(const std::vector<glm::dvec3>& points, Loop& loop) {
+  std::vector<Triangle> triangles;
+  const auto take = [&](std::size_t i) {
+    const std::size_t n = loop.size();
+    triangles.push_back({loop[(i + n - 1) % n], loop[i], loop[(i + 1) % n]});
+    std::ranges::sort(triangles.back());
+    loop.erase(loop.begin() + static_cast<std::ptrdiff_t>(i));
+  };
+  for (std::size_t i = 0; i < loop.size() && loop.size() > 3; ++i) {
+    const std::size_t n = loop.size();
+    const glm::dvec3 before = points[loop[(i + n - 1) % n]], tip = points[loop[i]], after = points[loop[(i + 1) % n]];
+    if (!(glm::dot(tip - before, after - tip) < 0 && glm::cross(tip - before, after - tip) == glm::dvec3(0))) continue;
+    take(i);
+    if (before == after && loop.size() > 3) take(i % loop.size());  // the corner that is there twice now
+    i = static_cast<std::size_t>(-1);  // the corners beside it may be tips now
+  }
+  return triangles;
+}
+
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
 
 /// Earcut leaves out corners on straight lines, doubled corners, and what it cannot cut. All that is left of the
@@ -106,17 +128,29 @@ bool cutConcave(const std::vector<glm::dvec3>& positions, std::span<Triangle> fa
   }
   const glm::dvec3 normal = newellNormal(points);
   const double length = glm::length(normal);
-  if (!(length > 0)) return false;
+  if (!(length > 0)) {  // a bow tie of two equal halves, unless all corners lie on a line
+    for (std::size_t i = 2; i < points.size(); ++i)
+      if (glm::cross(points[i - 1], points[i]) != glm::dvec3(0)) return true;
+    return false;
+  }
   const glm::dvec3 unit = normal / length;
   if (isConvex(points, unit)) return false;
 
-  const auto indices = mapbox::earcut<std::uint32_t>(std::array{project(points, unit)});
+  Loop loop(corners.size());
+  std::iota(loop.begin(), loop.end(), 0u);
+  const std::vector<Triangle> spikes = takeSpikes(points, loop);
+  std::vector<glm::dvec3> outline;
+  for (const std::uint32_t corner : loop) outline.push_back(points[corner]);
+  const auto indices = mapbox::earcut<std::uint32_t>(std::array{project(outline, unit)});
   std::vector<Triangle> triangles;
   for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
     triangles.push_back({indices[i], indices[i + 1], indices[i + 2]});
     std::ranges::sort(triangles.back());  // in the polygon's order, and so with its orientation
   }
-  fillRest(triangles, static_cast<std::uint32_t>(corners.size()));
+  fillRest(triangles, static_cast<std::uint32_t>(loop.size()));
+  for (Triangle& t : triangles)
+    for (std::uint32_t& corner : t) corner = loop[corner];
+  triangles.insert(triangles.end(), spikes.begin(), spikes.end());
   if (triangles.size() != fan.size()) return true;  // the fan stays; see the tests for what it takes
   for (std::size_t i = 0; i < fan.size(); ++i)
     for (std::size_t k = 0; k < 3; ++k) fan[i][k] = corners[triangles[i][k]];

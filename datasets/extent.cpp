@@ -11,6 +11,10 @@ bool withinFloat32(const glm::dvec3& point) {
   return std::abs(point.x) <= most && std::abs(point.y) <= most && std::abs(point.z) <= most;
 }
 
+bool hasArea(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+  return glm::cross(b - a, c - a) != glm::dvec3(0);
+}
+
 void Box::add(const glm::dvec3& point) {
   low = glm::min(low, point);
   high = glm::max(high, point);

@@ -12,13 +12,17 @@ namespace tessera {
 /// No coordinate is NaN or beyond float32.
 bool withinFloat32(const glm::dvec3& point);
 
-/// The corners of the triangles that a frame can show: those with all indices in range and all corners within float32.
+bool hasArea(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c);
+
+/// The corners of the triangles that a frame can show: those with all indices in range, all corners within float32 and
+/// an area.
 template <class PositionOf>  // of an index below `count`
 std::vector<bool> drawnVertices(std::size_t count, const std::vector<Triangle>& triangles, PositionOf positionOf) {
   std::vector<bool> within(count), drawn(count);
   for (std::size_t v = 0; v < count; ++v) within[v] = withinFloat32(positionOf(v));
   for (const auto& [a, b, c] : triangles)
-    if (a < count && b < count && c < count && within[a] && within[b] && within[c])
+    if (a < count && b < count && c < count && within[a] && within[b] && within[c] &&
+        hasArea(positionOf(a), positionOf(b), positionOf(c)))
       drawn[a] = drawn[b] = drawn[c] = true;
   return drawn;
 }

@@ -53,18 +53,13 @@ std::string whyNothing(const Mesh& mesh, const std::vector<bool>& drawn) {
   const std::size_t vertices = mesh.positions.size(), triangles = mesh.triangles.size();
   if (triangles == 0)
     return vertices == 0 ? "no vertices and no triangles" : fmt::format("no triangles: {} points only", vertices);
-  if (std::ranges::find(drawn, true) == drawn.end())
-    return fmt::format(
-        "none of its {} triangles can be drawn: each has an index out of range or a coordinate that is not finite",
-        triangles);
-  const auto hasArea = [&](const Triangle& t) {
-    if (!std::ranges::all_of(t, [&](std::uint32_t v) { return v < drawn.size() && drawn[v]; })) return false;
-    const glm::dvec3 &a = mesh.positions[t[0]], &b = mesh.positions[t[1]], &c = mesh.positions[t[2]];
-    return glm::cross(b - a, c - a) != glm::dvec3(0);
-  };
-  if (std::ranges::none_of(mesh.triangles, hasArea))
+  if (std::ranges::find(drawn, true) != drawn.end()) return "";
+  const auto isFinite = [&](std::uint32_t v) { return v < vertices && withinFloat32(mesh.positions[v]); };
+  if (std::ranges::any_of(mesh.triangles, [&](const Triangle& t) { return std::ranges::all_of(t, isFinite); }))
     return fmt::format("none of its {} triangles has an area", triangles);
-  return "";
+  return fmt::format(
+      "none of its {} triangles can be drawn: each has an index out of range or a coordinate that is not finite",
+      triangles);
 }
 
 }  // namespace

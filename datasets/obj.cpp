@@ -26,7 +26,7 @@ constexpr std::array<std::string_view, 32> kNoTriangles{
 /// What has triangles or curves in a viewer that knows it, and none here.
 constexpr std::array<std::string_view, 9> kLeftOut{"curv", "curv2", "surf", "bsp", "bzp", "cdc", "cdp", "call", "csh"};
 
-constexpr std::uint32_t kNoNormal = kBadIndex;
+constexpr std::uint32_t kNoNormal = kBadIndex, kBadNormal = kBadIndex - 1;
 
 class Reader {
  public:
@@ -50,6 +50,10 @@ class Reader {
   }
 
  private:
+  static bool isStatement(std::string_view word) {
+    return word == "v" || word == "f" || word == "vn" || std::ranges::find(kNoTriangles, word) != kNoTriangles.end() ||
+           std::ranges::find(kLeftOut, word) != kLeftOut.end();
+  }
   void readStatement() {
     const std::string_view word = in_.word();
     if (word == "v") {
@@ -62,6 +66,9 @@ class Reader {
       if (std::ranges::find(kLeftOut, word) == kLeftOut.end())
         in_.fail(fmt::format("{} is no statement of OBJ; v, vn, vt, f, g or another one would be right", shown(word)));
       ++leftOut_[word];
+      in_.leaveLine(isStatement);
+    } else {
+      in_.leaveLine(isStatement);
     }
   }
 
@@ -137,6 +144,7 @@ class Reader {
         in_.fail(fmt::format("corner {} of a face: the texture coordinate is not a whole number", shown(word)));
       if (!normalPart.empty() && !index(normalPart, normals_.size(), normal))
         in_.fail(fmt::format("corner {} of a face: the normal is not a whole number", shown(word)));
+      if (!normalPart.empty() && normal == kBadIndex) normal = kBadNormal;
     }
     corners_.push_back(position);
     normalsOfCorners_.push_back(normal);
@@ -148,10 +156,15 @@ class Reader {
     const std::size_t count = mesh_.positions.size();
     mesh_.normals.resize(count, glm::vec3(0));
     BitsTable<std::uint32_t, 4> twins;
+    std::size_t lost = 0;
     for (std::size_t t = 0; t < cornerNormals_.size(); ++t) {
       for (std::size_t k = 0; k < 3; ++k) {
         std::uint32_t& v = mesh_.triangles[t][k];
-        if (v >= count || cornerNormals_[t][k] >= normals_.size()) continue;
+        if (cornerNormals_[t][k] >= normals_.size()) {
+          lost += cornerNormals_[t][k] != kNoNormal;
+          continue;
+        }
+        if (v >= count) continue;
         const glm::vec3 normal = normals_[cornerNormals_[t][k]];
         glm::vec3& own = mesh_.normals[v];
         if (own == glm::vec3(0)) own = normal;
@@ -165,6 +178,8 @@ class Reader {
         v = static_cast<std::uint32_t>(count) + twin;
       }
     }
+    if (lost != 0)
+      mesh_.notes.push_back(fmt::format("{} corners of triangles name a normal that is not there; it is computed", lost));
   }
 
   Scanner in_;

@@ -70,6 +70,20 @@ void Scanner::skipLine() {
   while (at_ != end_ && kind(at_) != Kind::kLineEnd) ++at_;
 }
 
+void Scanner::leaveLine(bool (*begins)(std::string_view)) {
+  for (; at_ != end_ && kind(at_) != Kind::kLineEnd && kind(at_) != Kind::kComment; ++at_) {
+    const std::size_t over = kind(at_) == Kind::kBackslash ? continued(at_) : 0;
+    if (over == 0) continue;
+    const char* next = at_ + 1 + over;
+    while (next != end_ && kind(next) == Kind::kBlank) ++next;
+    if (begins(wordAt(next))) {
+      ++at_;
+      return;
+    }
+    at_ += over;
+  }
+}
+
 bool Scanner::more() {
   skipBlanks();
   const bool there = at_ != end_ && kind(at_) != Kind::kLineEnd && kind(at_) != Kind::kComment;

@@ -13,6 +13,7 @@
 
 #include "datasets/input.h"
 #include "host/build-info.h"
+#include "host/terminal.h"
 
 namespace tessera {
 namespace {
@@ -210,7 +211,7 @@ std::string rowText(const Run& run) {
   if (run.peakBufferBytes != 0) row["memory"] = {{"peak_buffer_bytes", run.peakBufferBytes}};
   if (!run.plan.empty()) row["plan"] = planJson(run.plan);
   row["provenance"] = provenanceJson(run, now);
-  return row.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return visible(row.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
 }  // namespace tessera

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <regex>
 #include <sstream>
 
 #include "host/error.h"
@@ -241,7 +242,10 @@ Written writtenBySlang(const KernelRequest& request, const std::string& target, 
   flags.insert(flags.end(), {"-reflection-json", reflection.string()});
   try {
     runCompiler(request, slangCommand(request, slangc, slangSources, flags, work.path(), made), made);
-    return {cpp ? wholeCpp(slangSources, readText(made)) : readText(made), readText(reflection)};
+    std::string text = cpp ? wholeCpp(slangSources, readText(made)) : readText(made);
+    // WGSL reserves this word (W3C, WebGPU Shading Language, section 16.2).
+    if (target == "wgsl") text = std::regex_replace(text, std::regex(R"(\battribute\b)"), "attribute_0");
+    return {std::move(text), readText(reflection)};
   } catch (const WriteError&) {
     throw;
   } catch (const Error& error) {

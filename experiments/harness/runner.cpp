@@ -9,6 +9,7 @@
 #include <memory>
 #include <set>
 
+#include "datasets/input.h"
 #include "datasets/text.h"
 #include "experiments/harness/cells.h"
 #include "experiments/harness/fields.h"
@@ -152,6 +153,23 @@ class Runner {
     return std::ranges::all_of(jobs_, [&](const Job& job) { return schedule_.isDone(job); });
   }
 
+  /// Rows of jobs that have ended stay, so their scenes have to be what they were.
+  void checkEnded() const {
+    for (const Job& job : jobs_) {
+      if (!begun_ || !schedule_.isDone(job)) continue;
+      const SweepScene& scene = sweep_.scenes[job.scene];
+      std::map<std::pair<std::uint32_t, std::uint32_t>, std::string> hashes;  // by width and height
+      for (const std::size_t number : job.cells) {
+        const Json& before = begun_->cells.at(number).row;
+        if (!hasScene(before)) continue;
+        const auto& [width, height] = cells_[number].size;
+        std::string& hash = hashes[{width, height}];
+        if (hash.empty()) hash = sceneHash(loadInput(scene.input, width, height, scene.attribute));
+        checkScene(number, before, hash);
+      }
+    }
+  }
+
   void run() {
     for (const Job& job : jobs_)
       if (!schedule_.isDone(job)) prepare(job);
@@ -232,18 +250,25 @@ class Runner {
     return message;
   }
 
+  /// False for a cell that ended before its scene was read.
+  static bool hasScene(const Json& row) { return !row.is_null() && row.at("scene").contains("sha256"); }
+
+  void checkScene(std::size_t number, const Json& before, const std::string& hash) const {
+    if (before.at("scene").at("sha256") == hash) return;
+    failUsage(
+        fmt::format("{}: its scene is not what it was when this sweep began; the scene as it was resumes it, "
+                    "another folder begins anew",
+                    nameOf(number)));
+  }
+
   /// What the journal has of the cell has to be of this scene on this machine.
   void planned(std::size_t number, const Json& row) {
     planned_[number] = row;
     if (!begun_) return;
     const Json& before = begun_->cells.at(number).row;
-    if (before.is_null() || !before.at("scene").contains("sha256")) return;  // it ended before its scene was read
-    const std::string name = cellName(sweep_, cells_[number]);
-    if (before.at("scene").at("sha256") != row.at("scene").at("sha256"))
-      failUsage(
-          fmt::format("{}: its scene is not what it was when this sweep began; the scene as it was resumes it, "
-                      "another folder begins anew",
-                      name));
+    if (!hasScene(before)) return;
+    checkScene(number, before, row.at("scene").at("sha256"));
+    const std::string name = nameOf(number);
     const auto part = [](const Json& of, const char* which) { return of.at("provenance").value(which, Json()).dump(); };
     for (const char* const which :
          {"device", "driver", "threads", "cpu", "os", "git", "compiler", "kernel_compiler", "slang"})
@@ -425,6 +450,7 @@ void runSweep(const SweepOptions& options) {
   const bool resumed = begun.has_value();
   Runner runner(options, std::move(begun));
   const bool wasDone = runner.isDone();
+  runner.checkEnded();
   try {
     if (!wasDone) runner.run();
   } catch (const Interrupted&) {

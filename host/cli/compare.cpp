@@ -209,7 +209,7 @@ std::string outcomeJson(const CompareOptions& options, const Request& request, c
   result["depends_on"] = Json::object();
   for (const auto& [name, values] : outcome.facts)
     for (const auto& value : values) result["depends_on"][name].push_back(value ? Json(*value) : Json());
-  return result.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return visible(result.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
 ExitCode runCompare(const CompareOptions& options) {

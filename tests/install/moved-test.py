@@ -45,7 +45,7 @@ def installIt():
   desk.mkdir()
   # Kernels that are compiled already, so that only what is tried below has to be.
   if (build / "kernel-cache").is_dir():
-    shutil.copytree(build / "kernel-cache", work / "cache")
+    shutil.copytree(build / "kernel-cache", work / "cache", ignore=shutil.ignore_patterns("*.tmp", "replays"))
   (work / "cache").mkdir(exist_ok=True)
   for folder in [desk, work / "cache"]:
     for path in [folder, *folder.rglob("*")]:

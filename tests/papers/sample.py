@@ -55,7 +55,7 @@ def rows(name, slowness_=slowness):
       samples = [round(median * noise.gauss(1, 0.01)) for _ in range(kRounds)]
       lost = 40000 // int(cell["capacity"]) if cell.get("overflow") == "drop" else 0
       row = {
-          "schema_version": kSchema, "status": "ok",
+          "schema_version": kSchema, "run_id": f"{name}-{number}", "status": "ok",
           "variant": {"binning": "exact", "tile": "64", "traversal": "cell-reject", "step": "direct", "size-class": "off"} | cell,
           "scene": {"name": scene, "triangles": 20000, "size": [2048, 2048]},
           "time_ns": {"samples": samples, "rounds": list(range(kRounds)), "sessions": [0] * kRounds, "clock": "wall",
