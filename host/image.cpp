@@ -91,9 +91,19 @@ struct ImageOutput::State {
 
   explicit State(const std::string& name) : format(formatOf(name)), path(splitName(name).second), file(path) {}
 
+  /// The libraries do not say that a disk is full: a try does.
+  std::string causeOf(const std::string& said) {
+    try {
+      checkWritten(file.path().parent_path(), said);
+    } catch (const WriteError& error) {
+      return error.what();
+    }
+    return said;
+  }
+
   void write(const imageio::Header& header, const imageio::RowSource& rows) {
     const std::string why = imageModule().write(file.path().string(), format, header, rows);
-    if (!why.empty()) fail(fmt::format("{}: could not be written: {}", path.string(), why));
+    if (!why.empty()) fail(fmt::format("{}: could not be written: {}", path.string(), causeOf(why)));
     file.commit();
   }
 };

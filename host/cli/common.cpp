@@ -109,7 +109,7 @@ void addKernelFiles(CLI::App& app, Options& options) {
   app.add_option(
          "--kernel", options.kernels,
          "run FILE (.slang, .hlsl, or GLSL as .comp or .glsl) in place of a stage's own kernel; repeat for more. It is "
-         "native code, with your rights; a frame with bounds checks comes first")
+         "native code, with your rights; a frame with bounds checks comes first, but for GLSL")
       ->type_name("STAGE=FILE")
       ->allow_extra_args(false);
 }
@@ -268,6 +268,8 @@ Route routeOf(const DeviceInfo& device, const Variant& variant) {
   if (device.api == "cpu") return Route::kCpp;
   return variant.get("route", "spirv") == "glsl" ? Route::kGlsl : Route::kSpirv;
 }
+
+std::string isNamed(const std::string& file) { return file.empty() ? "a file's name would be right, not nothing" : ""; }
 
 std::vector<fs::path> inputsOf(const Options& options) {
   std::vector<fs::path> files = inputFiles(options.input);

@@ -61,6 +61,8 @@ std::vector<std::string> presentDevices();
 /// How kernels reach this device under this variant.
 Route routeOf(const DeviceInfo& device, const Variant& variant);
 
+/// For CLI11: what is wrong with a file's name that is empty, as that of a variable that is not set.
+std::string isNamed(const std::string& file);
 /// All files that the command reads: the input, what a scene names, the user's kernels.
 std::vector<std::filesystem::path> inputsOf(const Options& options);
 

@@ -239,7 +239,8 @@ Command addCompare(CLI::App& app) {
   command
       ->add_option("-o,--output", options->output,
                    "a picture of where they differ; a pipe or - needs its format, as in png:-")
-      ->type_name("FILE.png");
+      ->type_name("FILE.png")
+      ->check(isNamed);
   command
       ->add_option(
           "--tolerance", options->tolerances,
@@ -258,7 +259,8 @@ Command addCompare(CLI::App& app) {
       ->type_name("CHANNEL=AMOUNT")
       ->allow_extra_args(false);
   command->add_option("--json", options->json, "add the counts, one line of JSON, to FILE's end; - is stdout")
-      ->type_name("FILE");
+      ->type_name("FILE")
+      ->check(isNamed);
   command
       ->add_option(
           "--max-unpacked", options->maxUnpacked,

@@ -234,7 +234,8 @@ void writeReplayOf(Parity& parity, const std::vector<Outcome>& outcomes, const P
 ExitCode runParity(const ParityOptions& options) {
   // A replay that differs again is its own replay.
   std::error_code absent;
-  const bool replayed = !options.replay.empty() && std::filesystem::equivalent(options.replay, options.input, absent);
+  const bool replayed = !options.replay.empty() && std::filesystem::path(options.input).extension() == ".replay" &&
+                        std::filesystem::equivalent(options.replay, options.input, absent);
   const bool replays = !options.replay.empty() && !replayed;
   std::vector<std::filesystem::path> outputs;
   if (!options.json.empty()) outputs.emplace_back(options.json);
@@ -275,7 +276,8 @@ Command addParity(CLI::App& app) {
   command
       ->add_option("--json", options->json,
                    "add a result row, one line of JSON, for each device and route to FILE's end; - is stdout")
-      ->type_name("FILE");
+      ->type_name("FILE")
+      ->check(isNamed);
   command
       ->add_option(
           "--replay", options->replay,

@@ -19,7 +19,7 @@ std::map<std::string, std::string> bytesOf(const Desk& desk) {
   return files;
 }
 
-void checkRefused(const Desk& desk, const std::string& arguments, const std::string& reason) {
+void checkKept(const Desk& desk, const std::string& arguments, const std::string& reason) {
   const auto before = bytesOf(desk);
   const auto outcome = desk.tessera("sweep " + arguments);
   INFO(arguments << ": " << outcome.err);
@@ -38,33 +38,33 @@ TEST_CASE("Folders and inputs that will not do are refused in a line") {
   fs::create_directory(desk.path() / "thesis");
   desk.write("thesis/chapter.txt", "years of work\n");
   for (const std::string resume : {"", " --resume"}) {
-    checkRefused(desk, "tile.toml --out thesis" + resume, "holds chapter.txt and no sweep");
-    checkRefused(desk, "tile.toml --out other.toml" + resume, "is a file");
+    checkKept(desk, "tile.toml --out thesis" + resume, "holds chapter.txt and no sweep");
+    checkKept(desk, "tile.toml --out other.toml" + resume, "is a file");
   }
   REQUIRE(desk.tessera("sweep tile.toml --out out").code == 0);
-  checkRefused(desk, "tile.toml --out out", "--resume goes on with it");
-  checkRefused(desk, "other.toml --out out --resume", "of another file");
-  checkRefused(desk, "tile.toml --out new --job cube@cpu", "ball@cpu");
-  checkRefused(desk, "tile.toml --out new --quick", "quick");
+  checkKept(desk, "tile.toml --out out", "--resume goes on with it");
+  checkKept(desk, "other.toml --out out --resume", "of another file");
+  checkKept(desk, "tile.toml --out new --job cube@cpu", "ball@cpu");
+  checkKept(desk, "tile.toml --out new --quick", "quick");
 
   const std::string journal = desk.read("out/journal.jsonl");
   const std::string version = "\"schema_version\":3";
   const std::size_t at = journal.find(version);
   REQUIRE(at != std::string::npos);
   desk.write("out/journal.jsonl", std::string(journal).replace(at, version.size(), "\"schema_version\":1"));
-  checkRefused(desk, "tile.toml --out out --resume", "rows of version 1");
+  checkKept(desk, "tile.toml --out out --resume", "rows of version 1");
   desk.write("out/journal.jsonl", "{\"kind\":\"shopping\"}\n");
-  checkRefused(desk, "tile.toml --out out --resume", "journal.jsonl:1: no line of a sweep's journal");
+  checkKept(desk, "tile.toml --out out --resume", "journal.jsonl:1: no line of a sweep's journal");
   desk.write("out/journal.jsonl", journal + "{}\n");
-  checkRefused(desk, "tile.toml --out out --resume", "no line of a sweep's journal");
+  checkKept(desk, "tile.toml --out out --resume", "no line of a sweep's journal");
 
   desk.write("gone.toml", tileSweep(1, 1, "devices = [\"vulkan:of another house\"]"));
-  checkRefused(desk, "gone.toml --out new", "no such device");
+  checkKept(desk, "gone.toml --out new", "no such device");
   desk.write("bad.obj", "v 1 2\n");
   std::string bad = tileSweep(1, 1);
   bad.replace(bad.find("generate:icosphere?level=2"), 26, "bad.obj");
   desk.write("bad.toml", bad);
-  checkRefused(desk, "bad.toml --out new", "bad.obj:1");
+  checkKept(desk, "bad.toml --out new", "bad.obj:1");
   CHECK_FALSE(fs::exists(desk.path() / "new"));
 }
 
@@ -78,7 +78,7 @@ TEST_CASE("A scene that has changed does not resume") {
   const std::string journal = desk.read("out/journal.jsonl");
   desk.write("out/journal.jsonl", journal.substr(0, journal.rfind('\n', journal.size() - 2) + 1));
   desk.write("two.obj", twoTriangles() + "v 9 9 9\n");
-  checkRefused(desk, "tile.toml --out out --resume", "its scene is not what it was");
+  checkKept(desk, "tile.toml --out out --resume", "its scene is not what it was");
 }
 
 TEST_CASE("One sweep at a time writes to a folder") {
