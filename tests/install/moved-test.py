@@ -43,6 +43,8 @@ def installIt():
   (work / "bin/tessera").symlink_to(prefix / "bin/tessera")
   desk = work / "desk"
   desk.mkdir()
+  (work / "tmp").mkdir()
+  (work / "tmp").chmod(0o1777)
   # Kernels that are compiled already, so that only what is tried below has to be.
   if (build / "kernel-cache").is_dir():
     shutil.copytree(build / "kernel-cache", work / "cache", ignore=shutil.ignore_patterns("*.tmp", "replays"))
@@ -58,7 +60,7 @@ class Desk:
     self.before = hiding()
     if not self.before:
       print("install/moved: no namespaces here, so the clone is not hidden")
-    self.environment = {"PATH": f"{work / 'bin'}:/usr/bin:/bin", "TESSERA_CACHE": str(work / "cache"), "TMPDIR": "/tmp"}
+    self.environment = {"PATH": f"{work / 'bin'}:/usr/bin:/bin", "TESSERA_CACHE": str(work / "cache"), "TMPDIR": str(work / "tmp")}
 
   def run(self, *words, code=0, **environment):
     done = subprocess.run([*self.before, "tessera", *words], cwd=work / "desk", env=self.environment | environment, capture_output=True, text=True)
