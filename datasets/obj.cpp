@@ -179,7 +179,8 @@ class Reader {
       }
     }
     if (lost != 0)
-      mesh_.notes.push_back(fmt::format("{} corners of triangles name a normal that is not there; it is computed", lost));
+      mesh_.notes.push_back(fmt::format("{} of triangles without the normal that the file names: it is computed",
+                                        lost == 1 ? "1 corner" : fmt::format("{} corners", lost)));
   }
 
   Scanner in_;

@@ -156,6 +156,24 @@ TEST_CASE("Concave polygons with corners on straight sides, doubled corners and 
   checkCovers(ring, result.triangles);
 }
 
+TEST_CASE("A side that is walked out and back covers nothing, whichever corner the polygon begins with") {
+  const Files files;
+  const std::vector<Points> polygons{
+      {{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {3, 1.25, 0}, {2, 1, 0}, {2, 2, 0}, {0, 2, 0}},          // on a side
+      {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {3, 3, 0}, {2, 2, 0}, {0, 2, 0}},                        // at a corner
+      {{0, 0, 0}, {4, 0, 0}, {4, 1, 0}, {1, 1, 0}, {3, 3, 0}, {1, 1, 0}, {1, 4, 0}, {0, 4, 0}},  // into a notch
+      {{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {3, 1, 0}, {4, 1, 0}, {3, 1, 0}, {2, 1, 0}, {2, 2, 0}, {0, 2, 0}}};
+  for (Points points : polygons) {
+    for (std::size_t turn = 0; turn < points.size(); ++turn) {
+      std::rotate(points.begin(), points.begin() + 1, points.end());
+      INFO("turned by " << turn << " of " << points.size());
+      const Cut result = cut(files, points);
+      CHECK(result.concave == 1);
+      checkCovers(points, result.triangles);
+    }
+  }
+}
+
 TEST_CASE("Each corner of a polygon that is cut stays in a triangle, in the polygon's order") {
   const Files files;
   Points sides;

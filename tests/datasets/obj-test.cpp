@@ -99,6 +99,24 @@ TEST_CASE("OBJ: negative normals count from the last one so far; corners in each
   CHECK(mesh.triangles[2] == Triangle{0, 1, 2});
 }
 
+TEST_CASE("OBJ: normals that are not there are counted") {
+  const Files files;
+  for (const std::string normal : {"7", "0", "-2", "99999999999"}) {
+    const std::string n = "//" + normal;
+    const Mesh mesh = readMesh(files.write("a.obj", kFour + "vn 0 0 1\nf 1" + n + " 2" + n + " 3//1\n"));
+    INFO(normal);
+    REQUIRE(mesh.notes.size() == 1);
+    CHECK(mesh.notes[0] == "2 corners of triangles without the normal that the file names: it is computed");
+  }
+}
+
+TEST_CASE("OBJ: a name that ends in a backslash takes no statement with it") {
+  const Files files;
+  const Mesh mesh = readMesh(
+      files.write("a.obj", kFour + "usemtl C:\\mats\\\nf 1 2 3\ng a \\\n b\ng \\\r\n  f 1 3 4\np 1 2 \\\n3\n"));
+  CHECK(mesh.triangles == std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}});
+}
+
 TEST_CASE("OBJ: coordinates keep the double that is nearest to their digits") {
   const Files files;
   const Mesh mesh = readMesh(files.write(
