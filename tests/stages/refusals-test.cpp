@@ -165,5 +165,5 @@ TEST_CASE("Unknown axes and values are refused", "[refusals]") {
   CHECK_THAT(line("tile=9"), Catch::Contains("tile=9") && Catch::Contains("8, 16, 32, 64"));
   CHECK_THAT(line("capacity=15"), Catch::Contains("from 16 to 65536"));
   CHECK_THAT(line("capacity=1e3"), Catch::Contains("from 16 to 65536"));
-  CHECK_THAT(line("tile"), Catch::Contains("axis=value"));
+  CHECK_THAT(line("tile"), Catch::Contains("has no value; tile=8 or 16"));
 }

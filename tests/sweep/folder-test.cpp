@@ -77,6 +77,18 @@ TEST_CASE("A scene that has changed does not resume") {
   REQUIRE(desk.tessera("sweep tile.toml --out out").code == 0);
   const std::string journal = desk.read("out/journal.jsonl");
   desk.write("out/journal.jsonl", journal.substr(0, journal.rfind('\n', journal.size() - 2) + 1));
+  fs::remove(desk.path() / "out/rows.jsonl");  // which comes with the end
+  desk.write("two.obj", twoTriangles() + "v 9 9 9\n");
+  checkKept(desk, "tile.toml --out out --resume", "its scene is not what it was");
+}
+
+TEST_CASE("A sweep that has ended is not of a scene that has changed since") {
+  Desk desk;
+  desk.write("two.obj", twoTriangles());
+  std::string sweep = tileSweep(1, 1);
+  sweep.replace(sweep.find("generate:icosphere?level=2"), 26, "two.obj");
+  desk.write("tile.toml", sweep);
+  REQUIRE(desk.tessera("sweep tile.toml --out out").code == 0);
   desk.write("two.obj", twoTriangles() + "v 9 9 9\n");
   checkKept(desk, "tile.toml --out out --resume", "its scene is not what it was");
 }

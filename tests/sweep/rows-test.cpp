@@ -45,7 +45,7 @@ TEST_CASE("A sweep's row says what it was and how to do it again") {
   REQUIRE(rows.size() == 4);
   std::size_t references = 0, twins = 0;
   for (const Json& row : rows) {
-    CHECK(row["schema_version"] == 2);
+    CHECK(row["schema_version"] == 3);
     CHECK(row["status"] == "ok");
     CHECK(row["error"]["id_mismatch"] == 0);
     CHECK(row["counters"]["tests"] > 0);
