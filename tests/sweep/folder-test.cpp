@@ -132,8 +132,9 @@ TEST_CASE("A picture that cannot be written is no fault of its cell") {
   desk.write("tile.toml", tileSweep(1, 1) + "[truth]\nsub-pixel = 0\n");
   REQUIRE(desk.tessera("sweep tile.toml --out out").code == 0);
   REQUIRE(sizeOf(desk, "out/pictures/3.png") > 0);
-  const std::string journal = desk.read("out/journal.jsonl"), rows = desk.read("out/rows.jsonl");
+  const std::string journal = desk.read("out/journal.jsonl");
   const std::string head = journal.substr(0, journal.find('\n') + 1);
+  fs::remove(desk.path() / "out/rows.jsonl");
   fs::remove_all(desk.path() / "out/pictures");
   desk.write("out/pictures", "in the way\n");
   desk.write("out/journal.jsonl", head);
@@ -141,6 +142,7 @@ TEST_CASE("A picture that cannot be written is no fault of its cell") {
   CHECK(outcome.code == 1);
   CHECK(outcome.complainsOnce());
   CHECK(outcome.err.find("pictures/0.png: could not be written") != std::string::npos);
-  CHECK(desk.read("out/rows.jsonl") == rows);
+  INFO(outcome.err);
+  CHECK_FALSE(fs::exists(desk.path() / "out/rows.jsonl"));
   CHECK(journalLines(desk, "out", "cell").empty());
 }
