@@ -50,9 +50,12 @@ class Reader {
   }
 
  private:
+  template <class Words>
+  static bool contains(const Words& words, std::string_view word) {
+    return std::ranges::find(words, word) != words.end();
+  }
   static bool isStatement(std::string_view word) {
-    return word == "v" || word == "f" || word == "vn" || std::ranges::find(kNoTriangles, word) != kNoTriangles.end() ||
-           std::ranges::find(kLeftOut, word) != kLeftOut.end();
+    return word == "v" || word == "f" || word == "vn" || contains(kNoTriangles, word) || contains(kLeftOut, word);
   }
   void readStatement() {
     const std::string_view word = in_.word();
@@ -62,12 +65,11 @@ class Reader {
       readFace();
     } else if (word == "vn") {
       normals_.emplace_back(readThree("normal (vn x y z)"));
-    } else if (std::ranges::find(kNoTriangles, word) == kNoTriangles.end()) {
-      if (std::ranges::find(kLeftOut, word) == kLeftOut.end())
-        in_.fail(fmt::format("{} is no statement of OBJ; v, vn, vt, f, g or another one would be right", shown(word)));
-      ++leftOut_[word];
-      in_.leaveLine(isStatement);
     } else {
+      const bool leftOut = contains(kLeftOut, word);
+      if (!leftOut && !contains(kNoTriangles, word))
+        in_.fail(fmt::format("{} is no statement of OBJ; v, vn, vt, f, g or another one would be right", shown(word)));
+      if (leftOut) ++leftOut_[word];
       in_.leaveLine(isStatement);
     }
   }

@@ -19,6 +19,13 @@ std::map<std::string, std::string> bytesOf(const Desk& desk) {
   return files;
 }
 
+/// tileSweep() of a mesh in place of its sphere.
+std::string sweepOf(const std::string& mesh, unsigned rounds) {
+  std::string sweep = tileSweep(rounds, 1);
+  const std::string sphere = "generate:icosphere?level=2";
+  return sweep.replace(sweep.find(sphere), sphere.size(), mesh);
+}
+
 void checkKept(const Desk& desk, const std::string& arguments, const std::string& reason) {
   const auto before = bytesOf(desk);
   const auto outcome = desk.tessera("sweep " + arguments);
@@ -61,9 +68,7 @@ TEST_CASE("Folders and inputs that will not do are refused in a line") {
   desk.write("gone.toml", tileSweep(1, 1, "devices = [\"vulkan:of another house\"]"));
   checkKept(desk, "gone.toml --out new", "no such device");
   desk.write("bad.obj", "v 1 2\n");
-  std::string bad = tileSweep(1, 1);
-  bad.replace(bad.find("generate:icosphere?level=2"), 26, "bad.obj");
-  desk.write("bad.toml", bad);
+  desk.write("bad.toml", sweepOf("bad.obj", 1));
   checkKept(desk, "bad.toml --out new", "bad.obj:1");
   CHECK_FALSE(fs::exists(desk.path() / "new"));
 }
@@ -71,9 +76,7 @@ TEST_CASE("Folders and inputs that will not do are refused in a line") {
 TEST_CASE("A scene that has changed does not resume") {
   Desk desk;
   desk.write("two.obj", twoTriangles());
-  std::string sweep = tileSweep(2, 1);
-  sweep.replace(sweep.find("generate:icosphere?level=2"), 26, "two.obj");
-  desk.write("tile.toml", sweep);
+  desk.write("tile.toml", sweepOf("two.obj", 2));
   REQUIRE(desk.tessera("sweep tile.toml --out out").code == 0);
   const std::string journal = desk.read("out/journal.jsonl");
   desk.write("out/journal.jsonl", journal.substr(0, journal.rfind('\n', journal.size() - 2) + 1));
@@ -85,9 +88,7 @@ TEST_CASE("A scene that has changed does not resume") {
 TEST_CASE("A sweep that has ended is not of a scene that has changed since") {
   Desk desk;
   desk.write("two.obj", twoTriangles());
-  std::string sweep = tileSweep(1, 1);
-  sweep.replace(sweep.find("generate:icosphere?level=2"), 26, "two.obj");
-  desk.write("tile.toml", sweep);
+  desk.write("tile.toml", sweepOf("two.obj", 1));
   REQUIRE(desk.tessera("sweep tile.toml --out out").code == 0);
   desk.write("two.obj", twoTriangles() + "v 9 9 9\n");
   checkKept(desk, "tile.toml --out out --resume", "its scene is not what it was");
