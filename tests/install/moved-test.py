@@ -23,7 +23,9 @@ def check(right, what):
 
 def hiding():
   """A command before others that hides the clone and what .tools leads to, and gives up being root; [] where that is not allowed."""
-  folders = sorted({str(clone.resolve()), str((clone / ".tools").resolve())})
+  folders, tools = [clone.resolve()], (clone / ".tools").resolve()
+  if not tools.is_relative_to(folders[0]):  # where it is a link
+    folders.append(tools)
   mounts = " && ".join(f"mount -t tmpfs none '{folder}'" for folder in folders)
   # nobody may read the prefix and write the work folder's own places
   leave = "exec setpriv --reuid=65534 --regid=65534 --clear-groups " if os.geteuid() == 0 else "exec "
@@ -31,7 +33,7 @@ def hiding():
   return before if subprocess.run([*before, "true"], capture_output=True).returncode == 0 else []
 
 
-def installIt():
+def installIt(before):
   made = work / "made"
   subprocess.run(["cmake", "--install", str(build), "--prefix", str(made)], check=True, stdout=subprocess.DEVNULL)
   made.rename(prefix)
@@ -49,15 +51,15 @@ def installIt():
   if (build / "kernel-cache").is_dir():
     shutil.copytree(build / "kernel-cache", work / "cache", ignore=shutil.ignore_patterns("*.tmp", "replays"))
   (work / "cache").mkdir(exist_ok=True)
-  for folder in [desk, work / "cache"]:
-    for path in [folder, *folder.rglob("*")]:
-      if os.geteuid() == 0:
+  if before and os.geteuid() == 0:  # commands run as nobody then
+    for folder in [desk, work / "cache"]:
+      for path in [folder, *folder.rglob("*")]:
         os.chown(path, 65534, 65534)
 
 
 class Desk:
-  def __init__(self):
-    self.before = hiding()
+  def __init__(self, before):
+    self.before = before
     if not self.before:
       print("install/moved: no namespaces here, so the clone is not hidden")
     self.environment = {"PATH": f"{work / 'bin'}:/usr/bin:/bin", "TESSERA_CACHE": str(work / "cache"), "TMPDIR": str(work / "tmp")}
@@ -128,8 +130,9 @@ def tryMissing(desk):
 
 
 try:
-  installIt()
-  desk = Desk()
+  before = hiding()
+  installIt(before)
+  desk = Desk(before)
   tryAll(desk)
   tryMissing(desk)
   print("install/moved: all of it ran" + (", the clone hidden" if desk.before else ""))
