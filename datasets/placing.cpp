@@ -2,6 +2,7 @@
 // are rounded then, so that float32 holds what is seen, wherever it is.
 #include "datasets/placing.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <utility>
@@ -11,6 +12,12 @@
 
 namespace tessera {
 namespace {
+
+Matrix rounded(const DoubleMatrix& m) {
+  Matrix result;
+  std::ranges::transform(m, result.begin(), [](double value) { return static_cast<float>(value); });
+  return result;
+}
 
 glm::dvec3 transformed(const DoubleMatrix& m, const glm::dvec3& p) {
   const auto row = [&](std::size_t r) { return ((m[r] * p.x + m[r + 1] * p.y) + m[r + 2] * p.z) + m[r + 3]; };
@@ -38,8 +45,7 @@ std::vector<glm::vec3> positionsByMatrix(const std::vector<glm::dvec3>& position
     const glm::dvec3 to = transformed(worldFromMesh, own) - origin;
     m[3] = to.x, m[7] = to.y, m[11] = to.z;
   }
-  Matrix f;
-  for (std::size_t i = 0; i < 16; ++i) f[i] = static_cast<float>(m[i]);
+  const Matrix f = rounded(m);
   std::vector<glm::vec3> placed;
   placed.reserve(positions.size());
   for (const glm::dvec3& position : positions) {
@@ -103,15 +109,7 @@ void placeMeshes(Scene& scene, std::vector<PlacedMesh> meshes, const AttributeRe
 }
 
 Matrix clipFromPositions(const DoubleMatrix& clipFromInput, const glm::dvec3& origin) {
-  Matrix rounded;
-  for (std::size_t r = 0; r < 16; r += 4) {
-    const double* const m = &clipFromInput[r];
-    const double last = origin == glm::dvec3(0)  // or -0 would become 0
-                            ? m[3]
-                            : ((m[0] * origin.x + m[1] * origin.y) + m[2] * origin.z) + m[3];
-    for (std::size_t i = 0; i < 4; ++i) rounded[r + i] = static_cast<float>(i == 3 ? last : m[i]);
-  }
-  return rounded;
+  return rounded(translated(clipFromInput, origin));
 }
 
 }  // namespace tessera

@@ -1,15 +1,13 @@
 #pragma once
 
-#include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "datasets/input.h"
+#include "host/matrix.h"
 
 namespace tessera {
-
-using DoubleMatrix = std::array<double, 16>;  ///< row-major, as a scene file gives it
 
 struct PlacedMesh {
   std::string name;  ///< for messages

@@ -42,8 +42,7 @@ class Header {
     file_.seekg(0);
     if (number<std::uint32_t>() != kMagic) broken("it does not begin as one");
     const auto flags = number<std::uint32_t>();
-    if (flags & kDeep) failUsage(fmt::format("{}: is deep or tiled, it should have plain scanlines", name_));
-    if (flags & kTiled) failUsage(fmt::format("{}: is deep or tiled, it should have plain scanlines", name_));
+    if (flags & (kDeep | kTiled)) failUsage(fmt::format("{}: is deep or tiled, it should have plain scanlines", name_));
     if (flags & kMultiPart) failUsage(fmt::format("{}: has several parts, it should have one", name_));
     for (std::string attribute = text(); !attribute.empty(); attribute = text()) readAttribute(attribute);
   }

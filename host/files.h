@@ -61,8 +61,6 @@ class AppendedFile {
   std::unique_ptr<State> state_;
 };
 
-void appendLine(const std::filesystem::path& target, std::string_view line);
-
 /// Whether it is this process's stdout, under whatever name.
 bool isStdout(const std::filesystem::path& target);
 

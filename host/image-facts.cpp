@@ -4,12 +4,12 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <string>
 #include <vector>
 
 #include "datasets/input.h"
 #include "host/build-info.h"
+#include "host/matrix.h"
 
 namespace tessera {
 namespace {
@@ -24,11 +24,9 @@ AxisKind kindOf(const std::string& axisName, const std::string& value) {
 /// Clip space from the input's coordinates, row-major: M translate(-O), in double where there is an origin O.
 std::string cameraText(const Scene& scene) {
   if (scene.origin == glm::dvec3(0)) return fmt::format("{}", fmt::join(scene.clipFromObject, " "));
-  std::array<double, 16> matrix;
-  std::ranges::copy(scene.clipFromObject, matrix.begin());
-  for (std::size_t r = 0; r < 16; r += 4)
-    matrix[r + 3] -= (matrix[r] * scene.origin.x + matrix[r + 1] * scene.origin.y) + matrix[r + 2] * scene.origin.z;
-  return fmt::format("{}", fmt::join(matrix, " "));
+  DoubleMatrix clipFromPositions;
+  std::ranges::copy(scene.clipFromObject, clipFromPositions.begin());
+  return fmt::format("{}", fmt::join(translated(clipFromPositions, -scene.origin), " "));
 }
 
 }  // namespace

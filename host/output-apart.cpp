@@ -18,8 +18,7 @@ std::string identityOf(const OutputPlace& place) {
     return place.descriptor >= 0 ? fmt::format("descriptor {}", place.descriptor) : "";
   if (place.there) return fmt::format("{} {}", place.there->st_dev, place.there->st_ino);
   struct stat folder {};
-  const fs::path parent = place.file.has_parent_path() ? place.file.parent_path() : fs::path(".");
-  if (stat(parent.c_str(), &folder) != 0) return fs::absolute(place.file).lexically_normal().string();
+  if (stat(folderOf(place.file).c_str(), &folder) != 0) return fs::absolute(place.file).lexically_normal().string();
   return fmt::format("{} {} {}", folder.st_dev, folder.st_ino, place.file.filename().string());
 }
 

@@ -18,12 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path folderOf(const fs::path& file) { return file.has_parent_path() ? file.parent_path() : fs::path("."); }
-
-[[noreturn]] void failed(const fs::path& name, const std::string& cause) {
-  fail(fmt::format("{}: could not be written: {}", name == "-" ? "stdout" : name.string(), cause));
-}
-
 /// Closed at the end.
 struct Descriptor {
   int number = -1;
@@ -31,11 +25,6 @@ struct Descriptor {
     if (number >= 0) close(number);
   }
 };
-
-/// Some file systems have no such thing as a sync; others say here what they could not write.
-bool synced(int descriptor) {
-  return fsync(descriptor) == 0 || errno == EINVAL || errno == ENOSYS || errno == EOPNOTSUPP;
-}
 
 }  // namespace
 
@@ -76,25 +65,25 @@ struct OutputFile::State {
     std::array<char, 1 << 16> chunk;
     for (ssize_t got; (got = read(from, chunk.data(), chunk.size())) != 0;) {
       if (got < 0 && errno == EINTR) continue;
-      if (got < 0) failed(place.name, causeOf(errno));
+      if (got < 0) failWriting(place.name, causeOf(errno));
       writeAll(stream, {chunk.data(), static_cast<std::size_t>(got)}, place.name);
     }
-    if (!synced(stream)) failed(place.name, causeOf(errno));
+    if (!synced(stream)) failWriting(place.name, causeOf(errno));
   }
 
   void rename(int made) {
     struct stat old {};
     if (stat(place.file.c_str(), &old) == 0 && S_ISREG(old.st_mode)) {
       [[maybe_unused]] const int notOurs = fchown(made, old.st_uid, old.st_gid);  // where we may
-      if (fchmod(made, old.st_mode & 0777) != 0) failed(place.name, causeOf(errno));
+      if (fchmod(made, old.st_mode & 0777) != 0) failWriting(place.name, causeOf(errno));
     }
-    if (!synced(made)) failed(place.name, causeOf(errno));
+    if (!synced(made)) failWriting(place.name, causeOf(errno));
     std::error_code error;
     fs::rename(temporary->path(), place.file, error);
-    if (error) failed(place.name, error.message());
+    if (error) failWriting(place.name, error.message());
     temporary->renamed();
     const Descriptor names{open(folder().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)};
-    if (names.number >= 0 && !synced(names.number)) failed(place.name, causeOf(errno));
+    if (names.number >= 0 && !synced(names.number)) failWriting(place.name, causeOf(errno));
   }
 };
 
@@ -113,10 +102,10 @@ void OutputFile::commit(std::optional<std::uintmax_t> bytes) {
   const fs::path& name = state_->place.name;
   const Descriptor made{open(path().c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC)};
   struct stat about {};
-  if (made.number < 0 || fstat(made.number, &about) != 0) failed(name, causeOf(errno));
+  if (made.number < 0 || fstat(made.number, &about) != 0) failWriting(name, causeOf(errno));
   const auto size = static_cast<std::uintmax_t>(about.st_size);
-  if (bytes && size != *bytes) failed(name, fmt::format("{} of {} bytes arrived", size, *bytes));
-  if (!bytes && size == 0) failed(name, "no byte arrived");
+  if (bytes && size != *bytes) failWriting(name, fmt::format("{} of {} bytes arrived", size, *bytes));
+  if (!bytes && size == 0) failWriting(name, "no byte arrived");
   if (state_->place.isFile())
     state_->rename(made.number);
   else
@@ -131,15 +120,15 @@ void checkWhole(const fs::path& target) {
 bool writeNew(const fs::path& target, std::string_view text) try {
   Temporary made(folderOf(target), target.filename().native(), Temporary::kFile);
   writeAll(made.descriptor(), text, target);
-  if (!synced(made.descriptor())) failed(target, causeOf(errno));
+  if (!synced(made.descriptor())) failWriting(target, causeOf(errno));
   if (renameat2(AT_FDCWD, made.path().c_str(), AT_FDCWD, target.c_str(), RENAME_NOREPLACE) != 0) {
     if (errno == EEXIST) return false;
-    failed(target, causeOf(errno));
+    failWriting(target, causeOf(errno));
   }
   made.renamed();
   return true;
 } catch (const std::system_error& error) {
-  failed(target, error.code().message());
+  failWriting(target, error.code().message());
 }
 
 void checkOutputFolder(const fs::path& folder) {
@@ -165,7 +154,7 @@ void writeWhole(const fs::path& target, std::string_view text) {
   OutputFile file(target);
   {
     const Descriptor beside{open(file.path().c_str(), O_WRONLY | O_NOFOLLOW | O_CLOEXEC)};
-    if (beside.number < 0) failed(target, causeOf(errno));
+    if (beside.number < 0) failWriting(target, causeOf(errno));
     writeAll(beside.number, text, target);
   }
   file.commit(text.size());

@@ -47,9 +47,7 @@ struct AppendedFile::State {
   State(const State&) = delete;
 
   void appendToFile(std::string text) {
-    const auto failed = [&](int error) {
-      fail(fmt::format("{}: could not be written: {}", place.name.string(), causeOf(error)));
-    };
+    const auto failed = [&](int error) { failWriting(place.name, causeOf(error)); };
     const int file = open(place.file.c_str(), O_RDWR | O_APPEND | O_CREAT | O_CLOEXEC | O_NOCTTY, 0666);
     if (file < 0) failed(errno);
     const std::unique_ptr<const int, void (*)(const int*)> closing(&file, [](const int* number) { close(*number); });
@@ -63,7 +61,7 @@ struct AppendedFile::State {
     do put = write(file, text.data(), text.size());
     while (put < 0 && errno == EINTR);
     int error = put < 0 ? errno : put < static_cast<ssize_t>(text.size()) ? ENOSPC : 0;
-    if (error == 0 && fsync(file) != 0 && errno != EINVAL && errno != ENOSYS && errno != EOPNOTSUPP) error = errno;
+    if (error == 0 && !synced(file)) error = errno;
     if (error == 0) return;
     if (put > 0 && ftruncate(file, about.st_size) != 0)
       fail(fmt::format("{}: could not be written: {}; its last line is cut short, and could not be taken away: {}",
@@ -85,7 +83,5 @@ void AppendedFile::append(std::string_view lines) {
   else
     state_->appendToFile(std::move(text));
 }
-
-void appendLine(const fs::path& target, std::string_view line) { AppendedFile(target).append(line); }
 
 }  // namespace tessera

@@ -94,7 +94,7 @@ OutputPlace outputPlace(const fs::path& target) {
 }
 
 void checkBeside(const OutputPlace& place) {
-  const fs::path folder = place.file.has_parent_path() ? place.file.parent_path() : fs::path(".");
+  const fs::path folder = folderOf(place.file);
   struct stat about {};
   if (stat(folder.c_str(), &about) != 0)
     refuse(place.name, errno == ENOENT ? fmt::format("the folder {} does not exist", folder.string())
@@ -150,8 +150,17 @@ int writeBytes(int descriptor, std::string_view bytes) {
 }
 
 void writeAll(int descriptor, std::string_view bytes, const fs::path& name) {
-  if (const int error = writeBytes(descriptor, bytes); error != 0)
-    fail(fmt::format("{}: could not be written: {}", name == "-" ? "stdout" : name.string(), causeOf(error)));
+  if (const int error = writeBytes(descriptor, bytes); error != 0) failWriting(name, causeOf(error));
 }
+
+bool synced(int descriptor) {
+  return fsync(descriptor) == 0 || errno == EINVAL || errno == ENOSYS || errno == EOPNOTSUPP;
+}
+
+void failWriting(const fs::path& name, const std::string& cause) {
+  fail(fmt::format("{}: could not be written: {}", name == "-" ? "stdout" : name.string(), cause));
+}
+
+fs::path folderOf(const fs::path& file) { return file.has_parent_path() ? file.parent_path() : fs::path("."); }
 
 }  // namespace tessera

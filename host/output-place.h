@@ -36,6 +36,15 @@ int writeBytes(int descriptor, std::string_view bytes);
 /// Throws kFailure, with the name and the cause, unless all is written.
 void writeAll(int descriptor, std::string_view bytes, const std::filesystem::path& name);
 
+/// fsync. Some file systems have no such thing; others say here what they could not write: false, and errno is set.
+bool synced(int descriptor);
+
+/// Throws kFailure: the name, "-" being stdout, and the cause.
+[[noreturn]] void failWriting(const std::filesystem::path& name, const std::string& cause);
+
 std::string causeOf(int error);
+
+/// That of a file, "." where its name has none.
+std::filesystem::path folderOf(const std::filesystem::path& file);
 
 }  // namespace tessera

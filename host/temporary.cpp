@@ -65,6 +65,7 @@ Temporary::Temporary(const fs::path& parent, std::string_view stem, Kind kind, m
         throw std::system_error(errno, std::generic_category());
       }
       lock_ = open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+      if (lock_ < 0 && errno == ENOENT) continue;  // another run has cleared it before it was locked
     } else {
       lock_ = open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, mode);
       if (lock_ < 0 && errno == EEXIST) continue;

@@ -99,13 +99,13 @@ TEST_CASE("A device is written to and stays a device") {
   OutputFile file(null);
   std::ofstream(file.path()) << "picture";
   file.commit();
-  appendLine(null, "row");
+  AppendedFile(null).append("row");
   CHECK(fs::is_character_file(null));
   const auto check = [&](const std::function<void()>& write) {
     CHECK(contains(lineOf(ExitCode::kFailure, write), "/dev/full: could not be written: No space left on device"));
   };
   check([&] { writeWhole(full, "text"); });
-  check([&] { appendLine(full, "row"); });
+  check([&] { AppendedFile(full).append("row"); });
   check([&] {
     OutputFile picture(full);
     std::ofstream(picture.path()) << "picture";
@@ -122,7 +122,7 @@ TEST_CASE("A pipe gets the bytes and stays a pipe") {
   writeWhole(pipe, large);
   CHECK(text.get() == large);
   text = readPipe(pipe);
-  appendLine(pipe, "row");
+  AppendedFile(pipe).append("row");
   CHECK(text.get() == "row\n");
   text = readPipe(pipe);
   {
@@ -153,7 +153,7 @@ TEST_CASE("Descriptors are written to where they stand") {
   for (const char* const form : {"/dev/fd/{}", "/proc/self/fd/{}"}) {
     const std::string name = fmt::format(fmt::runtime(form), file);
     writeWhole(name, "text ");
-    appendLine(name, "row");
+    AppendedFile(name).append("row");
     OutputFile picture(name);
     std::ofstream(picture.path()) << "picture ";
     picture.commit();
@@ -198,7 +198,7 @@ TEST_CASE("Where nothing can be written is said before the work") {
   fs::permissions(folder / "folder", fs::perms(0555));
   check(folder / "folder/b", "cannot be written: Permission denied");
   CHECK(contains(lineOf(ExitCode::kUsage, [&] { OutputFile{folder / "folder/a"}; }), "beside its name first"));
-  appendLine(folder / "folder/a", "row");  // which needs no new file
+  AppendedFile(folder / "folder/a").append("row");  // which needs no new file
   fs::permissions(folder / "folder", fs::perms(0755));
 }
 
@@ -208,7 +208,7 @@ TEST_CASE("Names near the longest work") {
   while (accents.size() < 254) accents += "\u00e9";
   for (const std::string& name : {std::string(255, 'n'), accents}) {
     writeWhole(folder / name, "text");
-    appendLine(folder / name, "row");
+    AppendedFile(folder / name).append("row");
     CHECK(folder.read(name) == "text\nrow\n");
   }
 }

@@ -5,9 +5,15 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <catch2/catch.hpp>
+#include <fstream>
+#include <mutex>
+#include <thread>
+#include <vector>
 
 #include "fixture.h"
+#include "host/error.h"
 #include "tests/support/error-line.h"
 
 namespace tessera::test {
@@ -52,6 +58,31 @@ TEST_CASE("What a killed run left is cleared and what is in use stays") {
   CHECK(fs::exists(mine.path()));
   CHECK(fs::exists(folder / "a.png.backup.tmp"));
   CHECK(fs::exists(folder / "a.png.part"));
+}
+
+TEST_CASE("Runs that begin at once clear nothing of one another's") {
+  const Folder folder;
+  constexpr int kRuns = 4, kFolders = 400;
+  std::atomic<int> whole = 0;
+  std::mutex mutex;
+  std::vector<std::string> errors;
+  {
+    std::vector<std::jthread> runs;
+    for (int run = 0; run < kRuns; ++run)
+      runs.emplace_back([&] {
+        for (int i = 0; i < kFolders; ++i) try {
+            const TemporaryFolder work(folder / "", "work");  // clears what it finds without an owner
+            std::ofstream(work.path() / "file") << "text";
+            whole += fs::exists(work.path() / "file");
+          } catch (const Error& error) {
+            const std::lock_guard lock(mutex);
+            errors.emplace_back(error.what());
+          }
+      });
+  }
+  CHECK(errors == std::vector<std::string>{});
+  CHECK(whole == kRuns * kFolders);
+  CHECK(folder.names().empty());
 }
 
 TEST_CASE("A link planted under a temporary name is not followed") {

@@ -1,13 +1,18 @@
 // What images say about what they depend on, and that two devices write one file.
 #include <OpenImageIO/imageio.h>
 
+#include <fmt/format.h>
+
+#include <array>
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <sstream>
 
 #include "command.h"
+#include "datasets/input.h"
 #include "host/files.h"
 #include "host/image.h"
 
@@ -79,6 +84,28 @@ TEST_CASE("an image says what it depends on in both formats") {
   desk.tessera(kRender + "--device vulkan --kernel 'transform=" TESSERA_SOURCE_DIR
                          "/slang/by-hand/transform.comp' -o k.exr");
   CHECK_THAT(factsOf(desk / "k.exr").at("kernels"), Contains("transform="));
+}
+
+TEST_CASE("an image of a scene far from 0 names the camera of the input's coordinates and the origin") {
+  const Desk desk;
+  std::ofstream(desk / "far.off") << "OFF\n3 1 0\n500000 4500000 10\n500002 4500000 12\n500001 4500003 11\n3 0 1 2\n";
+  desk.tessera("render far.off --size 64 -o a.exr");
+  const auto facts = factsOf(desk / "a.exr");
+  std::istringstream camera(facts.at("camera"));
+  std::array<double, 16> m;
+  for (double& value : m) REQUIRE(camera >> value);
+  const Scene scene = loadInput((desk / "far.off").string(), 64, 64);
+  CHECK(facts.at("origin") == fmt::format("{} {} {}", scene.origin.x, scene.origin.y, scene.origin.z));
+  CHECK(scene.origin != glm::dvec3(0));
+  for (const glm::vec3& position : scene.positions) {
+    const glm::dvec3 p(position), input = p + scene.origin;  // exact
+    for (std::size_t r = 0; r < 16; r += 4) {
+      const Matrix& f = scene.clipFromObject;
+      // Entries are below 4 and coordinates below 2^23: each of some ten operations rounds by at most 2^25 * 2^-53.
+      CHECK(m[r] * input.x + m[r + 1] * input.y + m[r + 2] * input.z + m[r + 3] ==
+            Approx(f[r] * p.x + f[r + 1] * p.y + f[r + 2] * p.z + f[r + 3]).epsilon(0).margin(10 * 0x1p-28));
+    }
+  }
 }
 
 TEST_CASE("compare names what two images do not have in common and keeps it apart from the pixels") {
