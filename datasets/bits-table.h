@@ -4,22 +4,21 @@
 #include <array>
 #include <bit>
 #include <cstdint>
-#include <vector>
+#include <memory>
+#include <utility>
 
 #include "datasets/huge-pages.h"
 
 namespace tessera {
 
-/// Open addressing. A slot has a number and some bits of the key's hash, so that other keys are seldom looked at.
+/// Open addressing. A slot holds its key, so that a look into the table touches one place in memory.
 template <class Word, std::size_t kWords>
 class BitsTable {
  public:
   using Key = std::array<Word, kWords>;
 
-  explicit BitsTable(std::size_t expected = 0) {
-    resizeHuge(slots_, std::bit_ceil(expected / 3 * 4 + 1024), kEmpty);
-    reserveHuge(keys_, expected);
-  }
+  explicit BitsTable(std::size_t expected = 0)
+      : size_(std::bit_ceil(expected / 3 * 4 + 1024)), slots_(zeros<Slot>(size_)) {}
   static std::uint64_t hash(const Key& key) {
     std::uint64_t hash = 0;
     for (const Word word : key) {
@@ -29,48 +28,47 @@ class BitsTable {
     return hash;
   }
   /// The slot will be needed soon.
-  void prefetch(std::uint64_t hash) const { __builtin_prefetch(&slots_[hash & (slots_.size() - 1)]); }
+  void prefetch(std::uint64_t hash) const { __builtin_prefetch(&slots_[hash & (size_ - 1)]); }
   /// The key's number; `fresh` where the key is new: its number is then how many there were.
   struct Found {
     std::uint32_t number;
     bool fresh;
   };
   Found add(const Key& key, std::uint64_t hash) {
-    if (4 * keys_.size() >= 3 * slots_.size()) grow();
-    std::size_t at = hash & (slots_.size() - 1);
-    const std::uint64_t tag = hash & kTag;
-    for (; slots_[at] != kEmpty; at = (at + 1) & (slots_.size() - 1))
-      if ((slots_[at] & kTag) == tag && same(keys_[slots_[at] & ~kTag], key))
-        return {static_cast<std::uint32_t>(slots_[at]), false};
-    const auto number = static_cast<std::uint32_t>(keys_.size());
-    slots_[at] = tag | number;
-    keys_.push_back(key);
-    return {number, true};
+    if (4 * std::uint64_t{count_} >= 3 * size_) grow();
+    Slot& slot = slotOf(key, hash);
+    if (slot.next != 0) return {slot.next - 1, false};
+    slot = {key, ++count_};
+    return {count_ - 1, true};
   }
   Found add(const Key& key) { return add(key, hash(key)); }
 
  private:
+  struct Slot {
+    Key key;
+    std::uint32_t next;  ///< the number after the key's; 0 in an empty slot
+  };
   static bool same(const Key& a, const Key& b) {  // the arrays' own == calls memcmp
     for (std::size_t i = 0; i < kWords; ++i)
       if (a[i] != b[i]) return false;
     return true;
   }
-  static constexpr std::uint64_t kEmpty = ~std::uint64_t{0}, kTag = ~std::uint64_t{0xffffffff};
-
+  /// The slot of the key: its own, or an empty one where it belongs.
+  Slot& slotOf(const Key& key, std::uint64_t hash) {
+    std::size_t at = hash & (size_ - 1);
+    while (slots_[at].next != 0 && !same(slots_[at].key, key)) at = (at + 1) & (size_ - 1);
+    return slots_[at];
+  }
   void grow() {
-    std::vector<std::uint64_t> wider;
-    resizeHuge(wider, 2 * slots_.size(), kEmpty);
-    for (std::uint32_t i = 0; i < keys_.size(); ++i) {
-      const std::uint64_t h = hash(keys_[i]);
-      std::size_t at = h & (wider.size() - 1);
-      while (wider[at] != kEmpty) at = (at + 1) & (wider.size() - 1);
-      wider[at] = (h & kTag) | i;
-    }
-    slots_ = std::move(wider);
+    const std::size_t before = std::exchange(size_, 2 * size_);
+    const auto narrow = std::exchange(slots_, zeros<Slot>(size_));
+    for (std::size_t i = 0; i < before; ++i)
+      if (narrow[i].next != 0) slotOf(narrow[i].key, hash(narrow[i].key)) = narrow[i];
   }
 
-  std::vector<std::uint64_t> slots_;  ///< a power of two
-  std::vector<Key> keys_;             ///< by number
+  std::size_t size_;  ///< slots, a power of two
+  std::unique_ptr<Slot[], FreeMemory> slots_;
+  std::uint32_t count_ = 0;  ///< keys
 };
 
 }  // namespace tessera

@@ -5,6 +5,10 @@
 #include <sys/mman.h>
 
 #include <cstdint>
+#include <cstdlib>
+#include <memory>
+#include <new>
+#include <type_traits>
 #include <vector>
 
 namespace tessera {
@@ -26,6 +30,19 @@ template <class T>
 void resizeHuge(std::vector<T>& values, std::size_t count, const T& value = {}) {
   reserveHuge(values, count);
   values.resize(count, value);
+}
+
+struct FreeMemory {
+  void operator()(void* memory) const { std::free(memory); }
+};
+/// Memory of zeros, which the system has ready: nothing is written here. Throws std::bad_alloc.
+template <class T>
+std::unique_ptr<T[], FreeMemory> zeros(std::size_t count) {
+  static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);
+  auto* const memory = static_cast<T*>(std::calloc(count, sizeof(T)));
+  if (!memory) throw std::bad_alloc();
+  preferHugePages(memory, count * sizeof(T));
+  return std::unique_ptr<T[], FreeMemory>(memory);
 }
 
 }  // namespace tessera

@@ -4,6 +4,7 @@
 
 #include "datasets/input.h"
 #include "datasets/scanner.h"
+#include "datasets/text.h"
 
 namespace tessera {
 
@@ -11,6 +12,9 @@ Mesh readObj(const FileText& file);
 Mesh readOff(const FileText& file);
 /// The attribute, where it has a name and is no coordinate, is a scalar property of the vertices.
 Mesh readPly(const FileText& file, const AttributeRequest& attribute);
-Mesh readStl(const FileText& file);
+/// Binary STL is read piece by piece, since reading it takes less time than filling memory of its size.
+Mesh readStl(InputFile& file, const ReadProgress& progress);
+/// readMesh() before completeNormals().
+Mesh readMeshAsItIs(const std::filesystem::path& path, const AttributeRequest& attribute, const ReadProgress& progress);
 
 }  // namespace tessera

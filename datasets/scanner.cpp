@@ -84,14 +84,14 @@ void Scanner::leaveLine(bool (*begins)(std::string_view)) {
   }
 }
 
-bool Scanner::more() {
+bool Scanner::moreRare() {
   skipBlanks();
   const bool there = at_ != end_ && kind(at_) != Kind::kLineEnd && kind(at_) != Kind::kComment;
   if (there) place_ = at_;
   return there;
 }
 
-bool Scanner::ahead() {
+bool Scanner::aheadRare() {
   if (at_ >= report_) report();
   while (!more()) {
     skipLine();

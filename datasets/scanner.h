@@ -31,13 +31,21 @@ class Scanner {
   /// Leaves the rest of the line and goes to the next one that has words; false at the end of the text. The first call
   /// goes to the first such line.
   bool line();
-  /// Leaves the rest of a line that is not read. A backslash at its end belongs to a name, such as a folder's, and the line
-  /// ends there, if the next line begins with a word that `begins` a line of its own.
+  /// Leaves the rest of a line that is not read. A backslash at its end belongs to a name, such as a folder's, and the
+  /// line ends there, if the next line begins with a word that `begins` a line of its own.
   void leaveLine(bool (*begins)(std::string_view));
   /// Goes to the next word of this line; false at the line's end.
-  bool more();
+  bool more() {
+    const char* p = at_;
+    while (p != end_ && kind(p) == Kind::kBlank) ++p;
+    return p != end_ && kind(p) == Kind::kWord ? begins(p) : moreRare();
+  }
   /// Goes to the next word, on this line or a later one; false at the end of the text.
-  bool ahead();
+  bool ahead() {
+    const char* p = at_;
+    while (p < report_ && (kind(p) == Kind::kBlank || kind(p) == Kind::kLineEnd)) ++p;
+    return p < report_ && kind(p) == Kind::kWord ? begins(p) : aheadRare();
+  }
   /// The same, or a message that the text ends early, "the file ends before what".
   void needAhead(std::string_view what);
 
@@ -72,6 +80,13 @@ class Scanner {
     return p == end_ || (kind(p) != Kind::kWord && (kind(p) != Kind::kBackslash || continued(p) != 0));
   }
   std::string_view wordAt(const char* p) const;
+  bool begins(const char* word) {
+    at_ = place_ = word;
+    return true;
+  }
+  /// more() and ahead() where the next thing is no word, or progress is due.
+  bool moreRare();
+  bool aheadRare();
   void skipBlanks();
   void skipLine();
   double slowNumber(std::string_view what);
@@ -80,7 +95,7 @@ class Scanner {
   const FileText& file_;
   const Kinds& kinds_;
   const char *begin_, *end_, *at_, *place_;  ///< place_: where the last word begins
-  const char* report_;                       ///< from here on progress is due
+  const char* report_;                       ///< from here on progress is due; at most end_
   bool started_ = false;
 };
 

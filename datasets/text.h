@@ -1,28 +1,49 @@
 // Files and words.
 #pragma once
 
-#include <cstdlib>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
 #include <string_view>
 
+#include "datasets/huge-pages.h"
 #include "datasets/numbers.h"
 
 namespace tessera {
 
+/// A file that is read once, from its beginning to its end.
+class InputFile {
+ public:
+  /// Throws kUsage when the file is missing, a folder, a device or unreadable.
+  explicit InputFile(std::filesystem::path path);
+  ~InputFile();
+  InputFile(const InputFile&) = delete;
+  InputFile& operator=(const InputFile&) = delete;
+
+  const std::string& name() const { return path_.native(); }
+  /// Bytes; a pipe tells 0.
+  std::uint64_t size() const { return size_; }
+  /// The next bytes; fewer than asked for at the end of the file alone.
+  std::size_t read(char* into, std::size_t bytes);
+
+ private:
+  [[noreturn]] void fail(const char* cause) const;
+
+  std::filesystem::path path_;
+  int file_ = -1;
+  std::uint64_t size_ = 0;
+};
+
 /// The bytes of a whole file.
 class FileBytes {
  public:
-  /// Throws kUsage when the file is missing, a folder, unreadable or empty.
-  explicit FileBytes(const std::filesystem::path& path);
+  /// Throws kUsage when the file is empty, too. `begun` are bytes that were read from it before.
+  explicit FileBytes(InputFile& file, std::string_view begun = {});
   std::string_view view() const { return {bytes_.get(), size_}; }
 
  private:
-  struct Free {
-    void operator()(char* bytes) const { std::free(bytes); }
-  };
-  std::unique_ptr<char[], Free> bytes_;
+  std::unique_ptr<char[], FreeMemory> bytes_;
   std::size_t size_ = 0;
 };
 /// The same in a string.

@@ -1,5 +1,10 @@
-#include <cstring>
+#include <sys/stat.h>
 
+#include <cstring>
+#include <fstream>
+#include <thread>
+
+#include "datasets/mesh-formats.h"
 #include "fixture.h"
 
 using namespace tessera;
@@ -111,6 +116,42 @@ TEST_CASE("STL: a binary file may hold any header, none, or what text holds") {
   }
   CHECK(readMesh(files.write("b.stl", std::string(84, '\0'))).triangles.empty());
   CHECK(readError(files, "b.stl", bytes + "x").starts_with("b.stl: neither STL text"));
+}
+
+TEST_CASE("STL: a binary file of several pieces, from a disk and from a pipe") {
+  const Files files;
+  const Mesh mesh = generateMesh("icosphere?level=6");
+  const auto count = static_cast<std::uint32_t>(mesh.triangles.size());
+  const std::string bytes = binary(mesh, count), path = files.write("a.stl", bytes), pipe = files.path("pipe.stl");
+  const auto check = [&](const Mesh& read) {
+    CHECK(read.positions.size() == mesh.positions.size());
+    REQUIRE(read.triangles.size() == count);
+    std::size_t wrong = 0;
+    for (std::size_t i = 0; i < count; ++i)
+      for (int k = 0; k < 3; ++k)
+        wrong += glm::vec3(read.positions[read.triangles[i][static_cast<std::size_t>(k)]]) !=
+                 glm::vec3(mesh.positions[mesh.triangles[i][static_cast<std::size_t>(k)]]);
+    CHECK(wrong == 0);
+  };
+  std::vector<std::uint64_t> at;
+  check(readMesh(path, {}, [&](std::uint64_t done, std::uint64_t all) {
+    CHECK(all == bytes.size());
+    at.push_back(done);
+  }));
+  CHECK(at.size() > 10);
+  CHECK(std::ranges::is_sorted(at));
+  REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
+  const std::jthread writer([&] { std::ofstream(pipe, std::ios::binary) << bytes; });
+  check(readMesh(pipe));
+}
+
+TEST_CASE("STL: a binary file that becomes shorter while it is read") {
+  const Files files;
+  const Mesh mesh = readMesh(files.write("a.stl", kText));
+  const std::string path = files.write("b.stl", binary(mesh, 3));
+  InputFile file(path);
+  std::filesystem::resize_file(path, 200);
+  CHECK(usageError([&] { readStl(file, {}); }) == path + ": became shorter while it was read");
 }
 
 TEST_CASE("STL: broken files are refused where they are broken") {
