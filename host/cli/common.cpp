@@ -228,11 +228,15 @@ Scene sceneOf(const Options& options) {
   const Size size = options.size.empty() ? Size{0, 0} : parseSize(options.size);  // 0: the scene's own
   Scene scene = [&] {
     Progress progress(fmt::format("reading {}", options.input), 0);
+    const auto start = std::chrono::steady_clock::now();
     return loadInput(options.input, size.width, size.height, attributeOf(options),
                      [&](std::size_t done, std::size_t total) {
                        constexpr double kMegabyte = 1e6;
-                       progress.at(0, fmt::format("{:.0f} of {:.0f} MB", static_cast<double>(done) / kMegabyte,
-                                                  static_cast<double>(total) / kMegabyte));
+                       const auto here = static_cast<double>(done), all = static_cast<double>(total);
+                       const double passed =
+                           std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+                       progress.at(0, fmt::format("{:.0f} of {:.0f} MB", here / kMegabyte, all / kMegabyte),
+                                   done == 0 ? std::nullopt : std::optional(passed / here * (all - here)));
                      });
   }();
   printNotes(scene);
