@@ -63,6 +63,15 @@ class Summary(unittest.TestCase):
     self.assertEqual(self.cells(made.summary())["equal to it"], "\u2013")
     self.assertNotIn("equal to it", made.outcome())
 
+  def testNotesOfAScene(self):
+    """What the reader of a mesh had to say is on the page, once."""
+
+    def change(row):
+      row["scene"]["notes"] = ["ball.obj: 3 polygons are not convex: cut"]
+      return self.wrongAgainst(False)(row)
+
+    self.assertEqual(self.page(change).html().count("Scene ball: ball.obj: 3 polygons are not convex: cut."), 1)
+
   def testErrorsCountFromTruth(self):
     made = self.page(self.wrongAgainst(True))
     row = self.cells(made.summary())
