@@ -8,6 +8,7 @@
 #include "bench/scenes.h"
 #include "host/cpu/cpu-device.h"
 #include "host/error.h"
+#include "host/terminal.h"
 #include "host/vulkan/vulkan-device.h"
 
 namespace tessera::bench {
@@ -48,7 +49,7 @@ int runSuite(const char* program, int argc, char** argv, const std::function<voi
   benchmark::Shutdown();
   return 0;
 } catch (const Error& error) {
-  fmt::print(stderr, "{}: {}\n", program, error.what());
+  say(stderr, "{}: {}\n", program, error.what());
   return static_cast<int>(error.code());
 }
 

@@ -29,7 +29,7 @@ bool isObeyed(std::uint32_t c) {
   return c < 0x20 || (c >= 0x7f && c < 0xa0)                              // C0, DEL, C1
          || c == 0x61c || c == 0x200e || c == 0x200f                      // marks of direction
          || (c >= 0x2028 && c <= 0x202e) || (c >= 0x2066 && c <= 0x2069)  // ends of lines, overrides, isolates
-         || c == 0xfeff;
+         || c == 0xfeff || c == 0xfffe || c == 0xffff;                    // a mark of the order of bytes, no characters
 }
 
 }  // namespace

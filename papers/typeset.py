@@ -9,6 +9,9 @@ from pathlib import Path
 
 import typst
 
+sys.path.append(str(Path(__file__).resolve().parents[1] / "experiments" / "report"))
+import visible
+
 
 def main(source, data, out):
   source, data, out = (Path(path).resolve() for path in (source, data, out))
@@ -18,7 +21,7 @@ def main(source, data, out):
   content, warnings = typst.compile_with_warnings(source, root="/", sys_inputs={"data": str(data)}, ignore_system_fonts=True,
                                                   timestamp=int(day.timestamp()))
   for warning in warnings:
-    print(f"{source.name}: {warning}", file=sys.stderr)
+    print(visible.oneLine(f"{source.name}: {warning}"), file=sys.stderr)
   with tempfile.TemporaryDirectory(dir=out.parent, prefix=out.name + ".", suffix=".tmp") as folder:
     new = Path(folder) / out.name
     new.write_bytes(content)
@@ -31,5 +34,5 @@ if __name__ == "__main__":
   try:
     main(*sys.argv[1:])
   except typst.TypstError as error:
-    print(error.diagnostic, file=sys.stderr, end="")
+    print(visible.visible(error.diagnostic), file=sys.stderr, end="")
     sys.exit(1)

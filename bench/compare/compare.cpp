@@ -14,6 +14,7 @@
 #include "host/error.h"
 #include "host/files.h"
 #include "host/row.h"
+#include "host/terminal.h"
 
 namespace {
 
@@ -69,12 +70,12 @@ void runAll(const Options& options) {
   report.provenance = provenance(device->info(), kernels);
   for (const BenchScene& scene : scenes()) {
     if (!options.chosen.empty() && std::ranges::find(options.chosen, scene.name) == options.chosen.end()) continue;
-    fmt::print(stderr, "compare: {}, {} rounds\n", scene.name, options.rounds);
+    say(stderr, "compare: {}, {} rounds\n", scene.name, options.rounds);
     report.comparisons.push_back(compareScene(scene, options, rasterizer, report.drawDevice));
   }
   report.drawDevice += fmt::format(", LP_NUM_THREADS={}", options.threads);
   report.memory.push_back(measureMemory("sphere", options.size, options.threads));
-  fmt::print("{}", text(report));
+  say(stdout, "{}", text(report));
   if (!options.jsonFile.empty()) writeWhole(options.jsonFile, json(report, options.raw));
 }
 
@@ -101,7 +102,7 @@ int main(int argc, char** argv) {
     if (options.memoryOf.empty()) runAll(options);
     else printMemory(options.memoryOf, options.size, options.threads);
   } catch (const Error& error) {
-    fmt::print(stderr, "compare: {}\n", error.what());
+    say(stderr, "compare: {}\n", error.what());
     return static_cast<int>(error.code());
   }
   return 0;

@@ -16,6 +16,7 @@
 #include "host/error.h"
 #include "host/files.h"
 #include "host/stages.h"
+#include "host/terminal.h"
 
 namespace {
 
@@ -144,8 +145,8 @@ void runAll(const Options& options) {
   report.provenance = provenance(device->info(), kernels);
   report.limits = options.limits;
   report.size = options.size;
-  for (const auto& [name, value] : report.provenance) fmt::print("{}: {}\n", name, value);
-  fmt::print(
+  for (const auto& [name, value] : report.provenance) say(stdout, "{}: {}\n", name, value);
+  say(stdout,
       "up to {} rounds a cell, as many as {} s hold, beside the default; one where a frame takes longer than {} s\n",
       options.limits.rounds, options.limits.budgetS, options.limits.slowS);
   for (const BenchScene& what : benchScenes()) {
@@ -154,7 +155,7 @@ void runAll(const Options& options) {
     SceneCells& cells = report.scenes.emplace_back(makeCells(scene, device->info()));
     cells.scene = what.name;
     Measurement(scene, cells, options.limits, *device, kernels).run();
-    fmt::print("\n{}", text(cells, options.limits));
+    say(stdout, "\n{}", text(cells, options.limits));
     std::fflush(stdout);
     // After each scene, so that what was measured stays when a later one fails.
     std::error_code ignored;  // writeWhole() says it
@@ -196,7 +197,7 @@ int main(int argc, char** argv) {
   try {
     runAll(options);
   } catch (const Error& error) {
-    fmt::print(stderr, "variants: {}\n", error.what());
+    say(stderr, "variants: {}\n", error.what());
     return static_cast<int>(error.code());
   }
   return 0;

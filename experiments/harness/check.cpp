@@ -90,9 +90,13 @@ void writePicture(Run& run, std::size_t number, const Framebuffer& image, const 
               paintDifference(expected, image, begin, end, out);
             },
             facts);
+  } catch (const Error& error) {  // which has the name
+    throw PictureFailed(fmt::format("{}; --resume goes on once there is room", error.what()));
   } catch (const std::exception& error) {
+    const auto* const ofFolder = dynamic_cast<const std::filesystem::filesystem_error*>(&error);
     throw PictureFailed(fmt::format("{}: could not be written: {}; --resume goes on once there is room",
-                                    (tools.folder / run.picture).string(), error.what()));
+                                    (tools.folder / run.picture).string(),
+                                    ofFolder ? ofFolder->code().message() : error.what()));
   }
 }
 

@@ -2,10 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <set>
+
 namespace tessera::harness {
 namespace {
 
-constexpr int kDeepest = 64;  // a row has six levels; the library writes and copies a level a call
+constexpr std::size_t kLongestKey = 120;  // in a message
+constexpr int kDeepest = 64;              // a row has six levels; the library writes and copies a level a call
 
 std::string shortText(const Json& json) {
   if (json.is_object()) return "an object";
@@ -17,8 +20,13 @@ std::string shortText(const Json& json) {
 }  // namespace
 
 Json parsedLine(std::string_view line) {
-  const auto look = [&](int depth, Json::parse_event_t, Json&) {
+  std::vector<std::set<std::string>> keys;  // of the objects that are open
+  const auto look = [&](int depth, Json::parse_event_t event, Json& value) {
     if (depth > kDeepest) throw WrongField(fmt::format("nested more than {} levels deep", kDeepest));
+    if (event == Json::parse_event_t::object_start) keys.emplace_back();
+    if (event == Json::parse_event_t::object_end) keys.pop_back();
+    if (event == Json::parse_event_t::key && !keys.back().insert(value.get<std::string>()).second)
+      throw WrongField(fmt::format("{}: is there twice", shortText(value)));
     return true;
   };
   try {
@@ -29,8 +37,9 @@ Json parsedLine(std::string_view line) {
 }
 
 void failField(const std::string& key, const Json* found, std::string_view right) {
-  throw WrongField(found ? fmt::format("{}: is {}; {} would be right", key, shortText(*found), right)
-                         : fmt::format("{}: is missing; {} would be right", key, right));
+  const std::string name = key.size() <= kLongestKey ? key : key.substr(0, kLongestKey - 3) + "...";
+  throw WrongField(found ? fmt::format("{}: is {}; {} would be right", name, shortText(*found), right)
+                         : fmt::format("{}: is missing; {} would be right", name, right));
 }
 
 namespace {

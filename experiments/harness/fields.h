@@ -17,8 +17,8 @@ struct WrongField : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The value of a line of JSON. Throws WrongField, for one that is nested too deeply to be copied or written safely,
-/// too.
+/// The value of a line of JSON. Throws WrongField, also for a key that is there twice, and for one that is nested too
+/// deeply to be copied or written safely.
 Json parsedLine(std::string_view line);
 
 [[noreturn]] void failField(const std::string& key, const Json* found, std::string_view right);

@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -10,11 +9,13 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <cmath>
 #include <cstring>
+#include <set>
+#include <utility>
 
 #include "datasets/text.h"
 #include "experiments/harness/fields.h"
+#include "experiments/harness/row-schema.h"
 #include "host/error.h"
 #include "host/files.h"
 #include "host/row.h"
@@ -26,91 +27,122 @@ namespace fs = std::filesystem;
 
 constexpr std::chrono::seconds kSyncInterval{5};  // what a crash of the machine, not of the program, may cost
 constexpr int kOldestRowSchema = 2;  // version 3 has null where that had a 0 for what an image does not hold
-constexpr std::array kStatuses{"ok", "overflow", "unsupported", "timeout", "error"};
 
-/// Numbers, or null where there was nothing to count.
-void checkNumbers(const Json& json, const char* key) {
-  if (!json.contains(key)) return;
-  for (const auto& [name, value] : objectAt(json, key).items())
-    if (!value.is_null() && !(value.is_number() && std::isfinite(value.get<double>())))
-      failField(fmt::format("{}.{}", key, name), &value, "a number or null");
-}
+/// What has been read so far, and what of it must not be there twice.
+struct Reading {
+  Record record;
+  std::map<std::size_t, const Json*> heads;  ///< the cells as the head has them
+  std::set<std::string> runs;
+  std::set<std::array<std::size_t, 3>> samples;  ///< cell, round, repeat
+  std::set<std::array<std::size_t, 4>> again;    ///< and session
+};
 
 /// A row as a check leaves it, with all that rows, summaries and a resumed sweep take from it.
-void checkRow(const Json& row, int version) {
-  if (wholeAt<unsigned>(row, "schema_version") != static_cast<unsigned>(version))
-    failField("schema_version", &member(row, "schema_version"), fmt::format("that of the journal, {},", version));
-  const std::string& status = textAt(row, "status");
-  if (std::ranges::find(kStatuses, status) == std::end(kStatuses))
-    failField("status", &member(row, "status"), fmt::format("one of {}", fmt::join(kStatuses, ", ")));
-  textAt(row, "run_id");
-  for (const auto& [axis, value] : objectAt(row, "variant").items()) textAt(objectAt(row, "variant"), axis.c_str());
-  objectAt(row, "provenance");
-  objectAt(row, "scene");
-  for (const char* const key : {"message", "clock", "picture"})
-    if (row.contains(key)) textAt(row, key);
-  for (const char* const key : {"error", "truth_error", "counters"}) checkNumbers(row, key);
+void checkRow(const Json& row, const Json& cell, const Json& version) {
+  for (const char* const key : {"sweep", "command", "time_ns", "error_samples"})
+    if (row.contains(key)) failField(key, &member(row, key), "a row that has none yet");
+  if (member(row, "schema_version") != version)
+    failField("schema_version", &member(row, "schema_version"),
+              fmt::format("that of the journal, {},", version.dump()));
+  Json whole = row;
+  whole["sweep"] = cell.at("sweep");
+  checkSchema(whole, "", "");
+  if (row.contains("clock")) textAt(row, "clock");
   if (row.contains("kernel_files"))
     for (const auto& [stage, file] : objectAt(row, "kernel_files").items()) textAt(file, "sha256");
+  const std::string picture = fmt::format("pictures/{}.png", cell.at("cell").get<std::size_t>());
+  if (row.contains("picture") && textAt(row, "picture") != picture)
+    failField("picture", &member(row, "picture"), picture);
 }
 
-void checkCell(const Json& cell) {
+/// The cells of a head say what they are of as the head itself does.
+void checkCell(const Json& cell, const Json& head, const std::string& place) {
   textAt(cell, "name");
   textAt(cell, "command");
   const Json& sweep = objectAt(cell, "sweep");
-  wholeAt<std::uint32_t>(sweep, "group");
-  for (const char* const key : {"reference", "twin"}) flagAt(sweep, key);
-  for (const char* const key : {"title", "question", "sha256", "scene", "device"}) textAt(sweep, key);
+  checkSchema(sweep, "/properties/sweep", place + ".sweep");
   if (member(sweep, "cell") != member(cell, "cell"))
-    failField("sweep.cell", &member(sweep, "cell"), "the cell's number");
-  for (const auto& [axis, value] : objectAt(sweep, "asked").items()) textAt(objectAt(sweep, "asked"), axis.c_str());
-  for (const Json& axis : listAt(sweep, "swept"))
-    if (!axis.is_string()) failField("sweep.swept", &axis, "names");
+    failField(place + ".sweep.cell", &member(sweep, "cell"), "the cell's number");
+  for (const char* const key : {"title", "question", "sha256"})
+    if (sweep.at(key) != textAt(objectAt(head, "sweep"), key))
+      failField(fmt::format("{}.sweep.{}", place, key), &sweep.at(key), "that of the head's sweep");
+  if (sweep.value("quick", false) != flagAt(head, "quick"))
+    failField(place + ".sweep.quick", &member(sweep, "quick"), "that of the head");
 }
 
 Sample sampleOf(const Json& head, const Json& line) {
+  checkSchema(member(line, "total_ns"), "/$defs/time", "total_ns");
+  checkSchema(member(line, "stages"), "/properties/time_ns/properties/stages", "stages");
   Sample sample{.round = static_cast<unsigned>(wholeAt(line, "round", head.at("rounds").get<unsigned>() - 1)),
                 .repeat = static_cast<unsigned>(wholeAt(line, "repeat", head.at("repeats").get<unsigned>() - 1)),
                 .session = wholeAt<unsigned>(line, "session"),
                 .times = {.totalNs = wholeAt<std::uint64_t>(line, "total_ns"), .stages = {}},
                 .error = line.value("error", Json())};
-  for (const auto& [stage, ns] : objectAt(line, "stages").items())
-    sample.times.stages.emplace_back(stage, wholeAt<std::uint64_t>(objectAt(line, "stages"), stage.c_str()));
-  if (!sample.error.is_null()) checkNumbers(line, "error");
+  for (const auto& [stage, ns] : line.at("stages").items())
+    sample.times.stages.emplace_back(stage, wholeAt<std::uint64_t>(line.at("stages"), stage.c_str()));
+  if (!sample.error.is_null()) checkSchema(sample.error, "/$defs/errors", "error");
   return sample;
 }
 
-void take(Record& record, const Json& line) {
+/// Where a resumed session times the reference and its twin once more, it says so; else a sample is there once.
+void takeSample(Reading& reading, std::size_t number, const Json& line) {
+  CellRecord& cell = reading.record.cells.at(number);
+  const Sample sample = sampleOf(reading.record.head, line);
+  const Json& sweep = reading.heads.at(number)->at("sweep");
+  const std::array<std::size_t, 3> place{number, sample.round, sample.repeat};
+  if (!line.contains("again") || !flagAt(line, "again")) {
+    if (!reading.samples.insert(place).second)
+      failField("repeat", &member(line, "repeat"), "a sample that no line before has");
+    cell.samples.push_back(sample);
+    return;
+  }
+  const bool isBase = flagAt(sweep, "reference") || flagAt(sweep, "twin");
+  if (!isBase || sample.session == 0 || !reading.samples.contains(place) ||
+      !reading.again.insert({number, sample.round, sample.repeat, sample.session}).second)
+    failField("again", &member(line, "again"), "a sample of a reference or its twin, once more in a later session,");
+  cell.again.push_back(sample);
+}
+
+void take(Reading& reading, const Json& line) {
+  Record& record = reading.record;
   const std::string& kind = textAt(line, "kind");
   if (kind == "session") {
-    record.sessions = wholeAt<std::uint16_t>(line, "session") + 1u;
+    if (wholeAt<std::uint16_t>(line, "session") != record.sessions)
+      failField("session", &member(line, "session"),
+                fmt::format("{}, the number of sessions before it,", record.sessions));
+    ++record.sessions;
     return;
   }
   if (kind != "cell" && kind != "end" && kind != "sample")
     failField("kind", &member(line, "kind"), "session, cell, end or sample");
-  const auto found = record.cells.find(wholeAt<std::uint32_t>(line, "cell"));
+  if (wholeAt<std::uint16_t>(line, "session") + 1u != record.sessions)
+    failField("session", &member(line, "session"), "that of the last line of a session before it");
+  const auto number = wholeAt<std::uint32_t>(line, "cell");
+  const auto found = record.cells.find(number);
   if (found == record.cells.end()) failField("cell", &member(line, "cell"), "one of the head's cells");
   CellRecord& cell = found->second;
+  const Json& version = record.head.at("schema_version");
   if (kind == "cell") {
     if (!cell.row.is_null()) failField("cell", &member(line, "cell"), "one that was not checked before");
     const Json& row = objectAt(line, "row");
-    checkRow(row, record.head.at("schema_version").get<int>());
+    checkRow(row, *reading.heads.at(number), version);
+    if (!reading.runs.insert(row.at("run_id")).second)
+      failField("run_id", &member(row, "run_id"), "one that no line before has");
     cell.frameS = finiteAt(line, "frame_s");
     cell.row = row;
     return;
   }
   if (cell.row.is_null()) failField("cell", &member(line, "cell"), "one that a line before has checked");
-  if (kind == "end") {
-    cell.row["status"] = textAt(line, "status");
-    cell.row["message"] = textAt(line, "message");
-    checkRow(cell.row, record.head.at("schema_version").get<int>());
-  } else {
-    const bool again = line.contains("again") && flagAt(line, "again");
-    (again ? cell.again : cell.samples).push_back(sampleOf(record.head, line));
-  }
+  if (cell.row.at("status") != "ok") failField("cell", &member(line, "cell"), "one that has not ended");
+  if (kind == "sample") return takeSample(reading, number, line);
+  if (textAt(line, "status") == "ok") failField("status", &member(line, "status"), "what ended the cell");
+  cell.row["status"] = textAt(line, "status");
+  cell.row["message"] = textAt(line, "message");
+  checkRow(cell.row, *reading.heads.at(number), version);
 }
 
-void takeHead(Record& record, const fs::path& path, const Json& line) {
+void takeHead(Reading& reading, const fs::path& path, const Json& line) {
+  Record& record = reading.record;
   if (textAt(line, "kind") != "head") failField("kind", &member(line, "kind"), "head");
   const auto version = wholeAt<std::uint16_t>(line, "schema_version");
   if (version < kOldestRowSchema || version > kRowSchemaVersion)
@@ -121,17 +153,21 @@ void takeHead(Record& record, const fs::path& path, const Json& line) {
   const Json& sweep = objectAt(line, "sweep");
   for (const char* const key : {"title", "question", "sha256"}) textAt(sweep, key);
   flagAt(line, "quick");
-  for (const char* const key : {"rounds", "repeats"})
-    if (wholeAt<std::uint16_t>(line, key) == 0) failField(key, &member(line, key), "a number from 1 on");
-  for (const Json& job : listAt(line, "jobs"))
-    if (!job.is_string()) failField("jobs", &job, "names");
-  for (const Json& cell : listAt(line, "cells")) {
+  for (const auto& [key, most] : {std::pair{"rounds", kMaxRounds}, {"repeats", kMaxFrames}})
+    if (wholeAt(line, key, most) == 0) failField(key, &member(line, key), "a number from 1 on");
+  for (const char* const key : {"jobs", "devices"})
+    if (line.contains(key) || std::string_view(key) == "jobs")  // older journals do not name the devices
+      for (const Json& name : listAt(line, key))
+        if (!name.is_string()) failField(key, &name, "names");
+  record.head = line;
+  for (const Json& cell : listAt(record.head, "cells")) {
+    const std::string place = fmt::format("cells.{}", reading.heads.size());
     const auto number = wholeAt<std::uint32_t>(cell, "cell");
-    if (record.cells.contains(number)) failField("cells", &member(cell, "cell"), "another number for each cell");
-    checkCell(cell);
+    if (!reading.heads.emplace(number, &cell).second)
+      failField(place + ".cell", &member(cell, "cell"), "another number for each cell");
+    checkCell(cell, record.head, place);
     record.cells[number];
   }
-  record.head = line;
 }
 
 }  // namespace
@@ -143,15 +179,16 @@ Record readJournal(const fs::path& folder) {
   if (!fs::is_regular_file(path))
     failUsage(fmt::format("{}: is no file; a sweep's journal would be right", path.string()));
   const std::string text = readFile(path);
-  Record record;
+  Reading reading;
+  Record& record = reading.record;
   std::size_t number = 1;
   for (std::size_t begin = 0, end; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1, ++number) {
     try {
       const Json line = parsedLine(std::string_view(text).substr(begin, end - begin));
       if (number == 1)
-        takeHead(record, path, line);
+        takeHead(reading, path, line);
       else
-        take(record, line);
+        take(reading, line);
     } catch (const WrongField& wrong) {
       failUsage(fmt::format("{}:{}: no line of a sweep's journal: {}", path.string(), number, wrong.what()));
     }
@@ -159,7 +196,7 @@ Record readJournal(const fs::path& folder) {
   }
   if (record.bytes == 0)
     failUsage(fmt::format("{}:1: no line of a sweep's journal; another folder would do", path.string()));
-  return record;
+  return std::move(record);
 }
 
 void Journal::create(const fs::path& folder, const Json& head) {

@@ -44,7 +44,8 @@ struct Record {
 
 std::filesystem::path journalOf(const std::filesystem::path& folder);
 
-/// Throws kUsage, with file and line, for what is no journal of this version.
+/// Throws kUsage, with file and line, for what is no journal of this version: each line is as this program writes it,
+/// after those before it, and the rows that come of it are as row.schema.json has them.
 Record readJournal(const std::filesystem::path& folder);
 
 /// The journal, open for more lines. One process at a time holds it.

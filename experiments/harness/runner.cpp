@@ -98,10 +98,7 @@ std::vector<std::string> jobNames(const SweepOptions& options, const std::option
 /// The rounds and devices of a sweep that was begun. Older journals do not name the devices: they are the file's.
 Changes begunChanges(const Record& begun) {
   Changes changes{begun.head.at("rounds").get<unsigned>(), {}};
-  for (const Json& device : begun.head.value("devices", Json::array())) {
-    if (!device.is_string()) failUsage("journal.jsonl:1: devices: names in quotes would be right");
-    changes.devices.push_back(device);
-  }
+  for (const Json& device : begun.head.value("devices", Json::array())) changes.devices.push_back(device);
   return changes;
 }
 
@@ -142,12 +139,7 @@ class Runner {
         cells_(cells(sweep_)),
         jobs_(chosenJobs(jobs(sweep_, cells_), jobNames(options, begun))),
         begun_(std::move(begun)),
-        schedule_(sweep_, cells_, jobs_, begun_ ? *begun_ : emptyRecord()) {
-    if (!begun_) return;
-    for (const Json& cell : begun_->head.at("cells"))
-      if (const std::size_t number = cell.at("cell"); number < cells_.size() && flagAt(cell.at("sweep"), "reference"))
-        makeReference(cells_, number);
-  }
+        schedule_(sweep_, cells_, jobs_, begun_ ? begunRecord() : emptyRecord()) {}
 
   bool isDone() const {
     return std::ranges::all_of(jobs_, [&](const Job& job) { return schedule_.isDone(job); });
@@ -198,6 +190,33 @@ class Runner {
     for (const Job& job : jobs_)
       for (const std::size_t number : job.cells) record.cells[number];
     return record;
+  }
+
+  /// The record, with its references for those of the file; all else in its head has to be what the file gives. Names
+  /// and commands of cells, which say the same in words, are as the program put them that began it.
+  const Record& begunRecord() {
+    const Json& begun = begun_->head;
+    for (const Json& cell : begun.at("cells")) {
+      const std::size_t number = cell.at("cell");
+      if (number < cells_.size() && !cells_[number].twin && flagAt(cell.at("sweep"), "reference"))
+        makeReference(cells_, number);
+    }
+    const auto hold = [&](const std::string& key, const std::string& own, const std::string& found) {
+      if (own != found)
+        failUsage(
+            fmt::format("{}:1: {}: is not what the sweep's file gives; the journal as it was resumes it, another "
+                        "folder begins anew",
+                        journalOf(folder_).string(), key));
+    };
+    const Json own = headOf(sweep_, cells_, jobs_);
+    for (const auto& [key, value] : own.items())
+      if (key != "cells" && begun.contains(key)) hold(key, lineOf(value), lineOf(begun.at(key)));
+    const auto textOf = [](const Json& head, std::size_t i) {
+      return i < head.at("cells").size() ? lineOf(head.at("cells")[i].at("sweep")) : "";
+    };
+    for (std::size_t i = 0; i < std::max(own.at("cells").size(), begun.at("cells").size()); ++i)
+      hold(fmt::format("cells.{}", i), textOf(own, i), textOf(begun, i));
+    return *begun_;
   }
 
   Json requestOf(const Job& job) const {

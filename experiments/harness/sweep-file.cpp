@@ -26,7 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMaxCells = 100'000;
-constexpr std::int64_t kMaxRounds = 1000, kMaxFrames = 1000, kMaxThreads = 4096;
+constexpr std::int64_t kMaxThreads = 4096;
 
 /// The table at `key`, of which the file chooses the keys; empty where there is none.
 TomlTable section(const TomlTable& top, std::string_view key) {

@@ -16,6 +16,9 @@
 
 namespace tessera::harness {
 
+inline constexpr unsigned kMaxRounds = 1000;
+inline constexpr unsigned kMaxFrames = 1000;  ///< of a turn: to warm up, and to be timed
+
 struct SweepScene {
   std::string name;   ///< its key in [scenes]
   std::string input;  ///< as loadInput takes it; a path is relative to the working folder

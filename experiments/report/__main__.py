@@ -10,7 +10,7 @@ import sys
 import tempfile
 import traceback
 
-from files import checkApart
+from files import checkApart, NotWritten, writing
 from refused import Refused
 import visible
 
@@ -33,19 +33,13 @@ def checkPlace(report):
     raise Refused(f"{report}: holds {(others or names)[0]} and no report; a new or an empty folder would do")
 
 
-def writeFigures(folder, plots, main):
-  """The names of the figures, of which `main` is written as figure.*, too."""
-  import figures
-
+def writeFigures(folder, files, main):
+  """The figures, of which `main` is written as figure.*, too."""
   folder.mkdir()
-  names = []
-  for plot in plots.list:
-    for name, kind, content in figures.files(plot):
-      (folder / f"{name}.{kind}").write_bytes(content)
-      if name == main:
-        (folder / f"figure.{kind}").write_bytes(content)
-      names.append(name)
-  return list(dict.fromkeys(names))
+  for name, kind, content in files:
+    (folder / f"{name}.{kind}").write_bytes(content)
+    if name == main:
+      (folder / f"figure.{kind}").write_bytes(content)
 
 
 def replace(new, report):
@@ -84,6 +78,7 @@ def main():
 
   # These take a second, and what is wrong with a folder should be said at once.
   import export
+  import figures
   import page
   import schema
   import plots as plots_
@@ -94,11 +89,13 @@ def main():
     reasons = [line for line in plots.skipped if line.startswith(f"{sweep.plot.get('figure')}:")]
     complain(f"{sweep.folder}: no figures/figure.svg: {' '.join(reasons) or 'there is nothing to plot'}", 0)
   report = arguments.out
+  files = [file for plot in plots.list for file in figures.files(plot)]
+  names = list(dict.fromkeys(name for name, _, _ in files))
+  content = page.Page(sweep, plots, names, report).html().encode()
   parent = next(folder for folder in (report.absolute(), *report.absolute().parents) if folder.is_dir())
-  with tempfile.TemporaryDirectory(prefix="report.", suffix=".tmp", dir=parent) as folder:
+  with writing(report), tempfile.TemporaryDirectory(prefix="report.", suffix=".tmp", dir=parent) as folder:
     new = Path(folder)
-    names = writeFigures(new / "figures", plots, figure)
-    content = page.Page(sweep, plots, names, report).html().encode()
+    writeFigures(new / "figures", files, figure)
     (new / kPage).write_bytes(content)
     shutil.copyfile(schema.kFile, new / kSchemaFile)
     replace(new, report)
@@ -109,12 +106,12 @@ def main():
 
 
 def say(line):
-  print(visible.visible(line))
+  with writing("stdout"):  # at once: what is kept until the end would fail there, with no line
+    os.write(sys.stdout.fileno(), (visible.oneLine(line) + "\n").encode())
 
 
 def complain(line, code):
-  sys.stdout.flush()
-  print("tessera:", visible.visible(" ".join(str(line).split("\n"))), file=sys.stderr)
+  print("tessera:", visible.oneLine(line), file=sys.stderr)
   return code
 
 
@@ -128,6 +125,8 @@ def run():
     )
   except Refused as error:
     return complain(error, 2)
+  except NotWritten as error:
+    return complain(error, 1)
   except OSError as error:
     return complain(f"{error.filename}: {error.strerror}", 1)
   except KeyboardInterrupt:

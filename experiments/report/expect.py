@@ -5,6 +5,8 @@ from pathlib import Path
 import sys
 import tomllib
 
+from visible import oneLine
+
 kComparisons = {"<=": operator.le, ">=": operator.ge, "<": operator.lt, ">": operator.gt}
 kMeasured = ("error", "truth_error", "counters")
 
@@ -67,8 +69,8 @@ def check(folder):
 def main(folder):
   lines, checked = check(Path(folder))
   for line in lines:
-    print(f"{folder}: {line}", file=sys.stderr)
-  print(f"{folder}: {checked} cells are {'not all ' if lines else ''}as the sweep file expects")
+    print(oneLine(f"{folder}: {line}"), file=sys.stderr)
+  print(oneLine(f"{folder}: {checked} cells are {'not all ' if lines else ''}as the sweep file expects"))
   return 5 if lines else 0
 
 

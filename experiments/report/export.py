@@ -1,19 +1,35 @@
 """The rows as one table of DuckDB, in a Parquet or DuckDB file."""
 
+import errno
 import json
+import os
 from pathlib import Path
 import tempfile
 
 import duckdb
 
-from files import beside
+from files import beside, NotWritten, writing
+
+
+def cause(error):
+  """What the system said, of one of DuckDB's errors: that has a name of ours and more lines around it. Else its first line."""
+  text = str(error)
+  return next((os.strerror(number) for number in errno.errorcode if os.strerror(number) in text), text.split("\n")[0])
 
 
 def write(sweep, path):
-  """Table `rows`: fields as in rows.jsonl, nested ones as structs, and first what the report adds."""
+  """Table `rows`: fields as in rows.jsonl, nested ones as structs, and first what the report adds. Throws NotWritten."""
+  try:
+    with writing(path):
+      writeTable(sweep, path)
+  except duckdb.Error as error:
+    raise NotWritten(f"{path}: could not be written: {cause(error)}") from error
+
+
+def writeTable(sweep, path):
   with beside(path) as new, tempfile.TemporaryDirectory() as folder:
     lines = Path(folder) / "rows.jsonl"
-    with lines.open("w", encoding="utf-8") as file:
+    with writing(lines), lines.open("w", encoding="utf-8") as file:
       for cell in sweep.cells:
         ratio = cell.ratio
         added = {

@@ -33,6 +33,19 @@ def clearTemporaries(parent, stem):
         os.close(descriptor)
 
 
+class NotWritten(Exception):
+  """One line: file, and why it could not be written."""
+
+
+@contextmanager
+def writing(path):
+  """What fails in it is said of `path`: a write has no name, and that of a temporary file says nothing."""
+  try:
+    yield
+  except OSError as error:
+    raise NotWritten(f"{path}: could not be written: {error.strerror}") from error
+
+
 @contextmanager
 def beside(path):
   """A new file to write, in a folder of its own beside `path`; synced and renamed over it at the end. Symbolic links lead to their target."""
@@ -53,7 +66,7 @@ def beside(path):
 
 
 def writeBeside(path, content):
-  with beside(path) as new:
+  with writing(path), beside(path) as new:
     new.write_bytes(content)
 
 

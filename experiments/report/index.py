@@ -89,7 +89,7 @@ def main():
   arguments = parser.parse_args()
   path = arguments.out / "index.html"
   writeBeside(path, html(arguments.out, arguments.names, arguments.schema).encode())
-  print(f"wrote {path}")
+  print(visible.oneLine(f"wrote {path}"))
 
 
 if __name__ == "__main__":

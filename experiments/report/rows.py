@@ -346,6 +346,11 @@ def readSweep(folder, newest, allDevices=False, rows="rows.jsonl"):
     [],
     path,
   )
+  for cell in cells:
+    for note in cell.row["scene"].get("notes", []):
+      line = f"Scene {cell.row['sweep']['scene']}: {note}."
+      if line not in sweep.notes:
+        sweep.notes.append(line)
   if about.get("quick"):
     sweep.notes.append("These rows are of a --quick sweep, with sizes, rounds and scenes as in [quick].")
   sweep.plot = readPlot(folder, sweep)

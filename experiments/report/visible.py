@@ -6,9 +6,20 @@ import re
 kObeyed = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069\ufeff\ud800-\udfff\ufffe\uffff]")
 
 
+def escaped(found):
+  code = ord(found[0])
+  # Python has a byte of a name that is not UTF-8 as half a pair of surrogates.
+  return f"\\x{code - 0xdc00:02x}" if 0xdc80 <= code <= 0xdcff else f"\\u{code:04x}"
+
+
 def visible(text):
   """As host/terminal.cpp has it: an escape is "\\u001b"."""
-  return kObeyed.sub(lambda found: f"\\u{ord(found[0]):04x}", text)
+  return kObeyed.sub(escaped, text)
+
+
+def oneLine(text):
+  """The same of a message: ends of lines are blanks."""
+  return visible(" ".join(str(text).split("\n")))
 
 
 def everywhere(value):

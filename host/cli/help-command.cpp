@@ -1,6 +1,4 @@
 // tessera help, version, man and completion: what says what there is.
-#include <fmt/format.h>
-
 #include <cstdio>
 #include <memory>
 #include <vector>
@@ -9,6 +7,7 @@
 #include "host/cli/completion.h"
 #include "host/cli/man.h"
 #include "host/cli/mistake.h"
+#include "host/terminal.h"
 
 namespace tessera::cli {
 
@@ -20,8 +19,9 @@ Command addHelp(CLI::App& app) {
   return {command, [name, &app] {
             // Not app.help(), which goes to the command that was parsed, that is, to this one.
             const auto formatter = app.get_formatter();
-            fmt::print("{}", name->empty() ? formatter->make_help(&app, "tessera", CLI::AppFormatMode::Normal)
-                                           : commandNamed(app, *name).help("tessera"));
+            say(stdout, "{}",
+                name->empty() ? formatter->make_help(&app, "tessera", CLI::AppFormatMode::Normal)
+                              : commandNamed(app, *name).help("tessera"));
             return ExitCode::kDone;
           }};
 }
@@ -40,7 +40,7 @@ Command addCompletion(CLI::App& app) {
       "completion "
       "bash).");
   return {command, [shell] {
-            fmt::print("{}", completionScript(*shell));
+            say(stdout, "{}", completionScript(*shell));
             return ExitCode::kDone;
           }};
 }
@@ -52,7 +52,7 @@ Command addComplete(CLI::App& app) {
   return {command, [words, &app] {
             if (words->empty()) words->emplace_back();
             for (const Candidate& candidate : candidates(app, *words))
-              fmt::print("{}\t{}\n", candidate.word, candidate.meaning);
+              say(stdout, "{}\t{}\n", candidate.word, candidate.meaning);
             return ExitCode::kDone;
           }};
 }
@@ -61,14 +61,14 @@ Command addMan(CLI::App& app) {
   auto* const command = app.add_subcommand("man", "print the manual page, for man to show");
   command->footer("Example:\n  tessera man | man -l -");
   return {command, [&app] {
-            fmt::print("{}", manualPage(app));
+            say(stdout, "{}", manualPage(app));
             return ExitCode::kDone;
           }};
 }
 
 Command addVersion(CLI::App& app, const std::string& version) {
   return {app.add_subcommand("version", "print the version"), [version] {
-            fmt::print("{}\n", version);
+            say(stdout, "{}\n", version);
             return ExitCode::kDone;
           }};
 }

@@ -9,7 +9,7 @@
 namespace tessera::cli {
 
 void addChanges(CLI::App& app, harness::Changes& changes) {
-  addCount(app, "--rounds", changes.rounds, 1, 1000, "rounds, in place of the file's");
+  addCount(app, "--rounds", changes.rounds, 1, harness::kMaxRounds, "rounds, in place of the file's");
   app.add_option("--devices", changes.devices,
                  "cpu, vulkan, vulkan:N or vulkan:NAME, with commas between, in place of the file's")
       ->type_name("DEVICE,...")

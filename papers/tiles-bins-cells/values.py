@@ -12,6 +12,7 @@ import sys
 from report import kRoot
 import ratios
 import rows
+import visible
 import words
 import bins
 import cells
@@ -91,5 +92,5 @@ if __name__ == "__main__":
   try:
     main(*sys.argv[1:])
   except rows.Refused as refused:
-    print(f"values: {refused}", file=sys.stderr)
+    print(visible.oneLine(f"values: {refused}"), file=sys.stderr)
     sys.exit(2)

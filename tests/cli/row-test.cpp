@@ -38,6 +38,9 @@ TEST_CASE("A row holds what applies and leaves out what does not") {
   for (const char* const absent : {"time_ns", "error", "counters", "plan", "memory"})
     CHECK_FALSE(bare.contains(absent));
   CHECK_FALSE(bare["scene"].contains("attribute"));
+  CHECK_FALSE(bare["scene"].contains("notes"));
+  scene.notes = {"a.obj: 2 polygons are not convex"};
+  CHECK(nlohmann::json::parse(rowText(run))["scene"]["notes"] == nlohmann::json{"a.obj: 2 polygons are not convex"});
 
   run.difference = Difference{};
   run.difference->psnr = std::numeric_limits<double>::infinity();

@@ -1,6 +1,7 @@
 """[[expect]] finds what does not hold, and nothing else."""
 import json
 from pathlib import Path
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -38,6 +39,16 @@ class Expect(unittest.TestCase):
     self.assertEqual(len(lines), 1)
     self.assertIn("tile=16: status is timeout, not ok: why", lines[0])
     self.assertEqual(self.check('[[expect]]\nstatus = ["ok", "timeout"]\nerror.id_mismatch = 0\n', row(0, "8", status="timeout"))[0], [])
+
+  def testTextForTheTerminal(self):
+    """Names and messages of rows reach it on one line, with what it would obey written out."""
+    with tempfile.TemporaryDirectory() as folder:
+      (Path(folder) / "sweep.toml").write_text('[[expect]]\nstatus = "ok"\n')
+      damaged = row(0, "8\x1b[31m", status="timeout", scene="a\nb") | {"message": "\x1b]0;title\x07"}
+      (Path(folder) / "rows.jsonl").write_text(json.dumps(damaged) + "\n")
+      result = subprocess.run([sys.executable, expect.__file__, folder], capture_output=True, text=True)
+    self.assertEqual((result.returncode, result.stderr.count("\n"), result.stdout.count("\n")), (5, 1, 1))
+    self.assertIn("a b 8x8 cpu, tile=8\\u001b[31m: status is timeout, not ok: \\u001b]0;title\\u0007\n", result.stderr)
 
   def testWhatIsNotThere(self):
     self.assertIn("counters.pieces is not there", self.check("[[expect]]\ncounters.pieces = 1\n", row(0, "8"))[0][0])

@@ -2,12 +2,16 @@
 
 import hashlib
 import json
+import resource
 import tempfile
 import unittest
 from pathlib import Path
+from unittest import mock
 
 import support
 import duckdb
+import export
+import files
 import sample
 from support import only, tessera
 
@@ -127,6 +131,57 @@ class Command(unittest.TestCase):
     self.assertRegex(result.stderr, r"^tessera: .*no figures/figure.svg: ratio-against-tile: .*\n$")
     self.assertFalse((self.folder / "report" / "figures" / "figure.svg").exists())
     self.assertTrue((self.folder / "report" / "index.html").exists())
+
+  def testRowsOnRecord(self):
+    """An experiment's own folder stays as it is: its report goes below the working folder, or where --out says."""
+    experiment = support.kSource / "experiments" / "languages"
+    state = lambda: {path: (path.stat().st_mtime_ns, path.stat().st_size) for path in [experiment, *experiment.rglob("*")]}
+    before, work = state(), Path(self.temporary.name) / "work"
+    work.mkdir()
+    for more, report in (((), "out/report/languages"), (("--out", "elsewhere"), "elsewhere")):
+      result = tessera("report", experiment, *more, folder=work)
+      self.assertEqual((result.returncode, result.stderr), (0, ""))
+      self.assertIn(f"wrote {report}/index.html", result.stdout)
+      rows = [json.loads(line) for line in (experiment / "results.jsonl").read_text().splitlines()]
+      page = (work / report / "index.html").read_text()
+      self.assertIn(rows[0]["sweep"]["question"], page)
+      self.assertEqual(page.count('<td class="command">'), len(rows))
+      self.assertEqual(state(), before)
+    self.assertEqual(sorted(path.name for path in work.iterdir()), ["elsewhere", "out"])
+
+  def testADiskThatIsFull(self):
+    """One line with the name that was asked for and the cause; what stood there stays, and nothing lies beside it."""
+    sample.write(self.folder, only(scene="ball", edge=256, device="cpu"))
+    (self.folder / "pictures").mkdir(exist_ok=True)
+    before = sorted(self.folder.rglob("*"))
+    full = lambda size, *more: tessera("report", self.folder, *more, largestFile=size)
+    self.refused(full(4096), 1, f"tessera: {self.folder}/report: could not be written: File too large\n")
+    self.assertEqual(sorted(self.folder.rglob("*")), before)
+
+    out = Path(self.temporary.name) / "out"
+    connect, unlimited = duckdb.connect, resource.getrlimit(resource.RLIMIT_FSIZE)
+
+    def narrow(*arguments):
+      """The page and what DuckDB reads fit; what it writes does not."""
+      resource.setrlimit(resource.RLIMIT_FSIZE, (4096, unlimited[1]))
+      return connect(*arguments)
+
+    for name in ("rows.parquet", "rows.duckdb"):
+      rows = out / name
+      out.mkdir(exist_ok=True)
+      rows.write_text("what was there")
+      with self.subTest(name=name), mock.patch.object(duckdb, "connect", narrow), self.assertRaises(files.NotWritten) as raised:
+        try:
+          export.write(support.read(self.folder), rows)
+        finally:
+          resource.setrlimit(resource.RLIMIT_FSIZE, unlimited)
+      self.assertEqual(str(raised.exception), f"{rows}: could not be written: File too large")
+      self.assertEqual(([path.name for path in out.iterdir()], rows.read_text()), ([name], "what was there"))
+      rows.unlink()
+
+    with open("/dev/full", "w") as stdout:
+      result = tessera("report", self.folder, stdout=stdout)
+    self.assertEqual((result.returncode, result.stderr), (1, "tessera: stdout: could not be written: No space left on device\n"))
 
   def checkExport(self, folder, file):
     rows = [json.loads(line) for line in (folder / "rows.jsonl").read_text().splitlines()]

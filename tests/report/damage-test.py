@@ -145,7 +145,15 @@ class Damage(unittest.TestCase):
     self.assertTrue(all(row["error"]["hit_count_mismatch"] is None for row in rows if "error" in row))
 
   def testTextForTheTerminal(self):
-    self.assertEqual(visible.visible("a\x1b[31m\x9b\u202e\x00\n"), "a\\u001b[31m\\u009b\\u202e\\u0000\n")
+    """As the command writes it: both have the same table to keep, and tests/cli counts as many characters."""
+    lines = (support.kSource / "tests/cli/visible.txt").read_bytes().decode().split("\n")
+    cases = [line.split("\t") for line in lines if line and not line.startswith("#")]
+    self.assertGreater(len(cases), 40)
+    for bytes_, text in cases:
+      self.assertEqual(visible.visible(bytes.fromhex(bytes_).decode(errors="surrogateescape")), text)
+    characters = [chr(code) for code in range(0x110000) if not 0xD800 <= code <= 0xDFFF]
+    self.assertEqual(sum(visible.visible(character) != character for character in characters), 80)
+    self.assertEqual(visible.oneLine("a\nb\tc\x1b"), "a b\tc\\u001b")
 
 
 class Large(unittest.TestCase):

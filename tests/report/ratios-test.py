@@ -1,11 +1,14 @@
 """Ratios and their noise floor against figures worked by hand; groups, machines, fronts and pictures."""
 
+from html import unescape
+import re
 import tempfile
 import unittest
 from pathlib import Path
 
 import support
 import numpy
+import page
 import panels
 import pictures
 import plots
@@ -13,6 +16,73 @@ import ratios
 import sample
 import scales
 import words
+
+
+class Summary(unittest.TestCase):
+  """What the page calls fastest: within the noise there are ties, and what is without an error is so against [truth]."""
+
+  def page(self, change):
+    group = support.only(scene="ball", edge=256, device="cpu", cpu="AMD EPYC")
+    chosen = lambda row: group(row) if "tile" in row["sweep"]["asked"] else None  # not the one cell beside the product
+    with tempfile.TemporaryDirectory() as folder:
+      sweep = support.read(sample.write(folder, lambda row: chosen(row) and change(row)))
+      return page.Page(sweep, plots.Plots(sweep, False), [])
+
+  def cells(self, html):
+    """Heads and cells of the table of the fastest, as text; it has one row."""
+    found = re.search(r'<table id="fastest".*?</table>', html, re.S)[0]
+    texts = lambda tag: [unescape(re.sub(r"<[^>]*>", "", cell)).strip() for cell in re.findall(rf"<{tag}\b.*?</{tag}>", found, re.S)]
+    return dict(zip((re.sub("[\u2195\u2191\u2193\u00a0]", "", head).strip() for head in texts("th")), texts("td"), strict=True))
+
+  def wrongAgainst(self, truth):
+    """float32-plane, the fastest, is wrong against [truth] and right by its own oracle, or the other way round."""
+
+    def change(row):
+      approximate = row["sweep"]["asked"].get("edge") == "float32-plane"
+      row["error"] = {"coverage_mismatch": 0 if approximate == truth else 5}
+      row["truth_error"] = {"coverage_mismatch": 5 if approximate == truth else 0}
+      return row
+
+    return change
+
+  def testTiesAreNamed(self):
+    """bitmask is four thousandths slower than exact, far within the noise: which is first is chance, that both are named is not."""
+    made = self.page(self.wrongAgainst(False))
+    row = self.cells(made.summary())
+    names = {"tile=32 binning=exact edge=float32-plane", "tile=32 binning=bitmask edge=float32-plane"}
+    self.assertEqual({row["fastest"], row["equal to it"]}, names)
+    self.assertRegex(made.outcome(), rf"^Fastest is {row['fastest']}: .*; equal to it is {row['equal to it']}\.$")
+
+  def testWithoutATieNoneIsNamed(self):
+    def change(row):
+      if row["sweep"]["asked"]["binning"] == "bitmask":
+        row["time_ns"]["samples"] = [2 * time for time in row["time_ns"]["samples"]]
+      return self.wrongAgainst(False)(row)
+
+    made = self.page(change)
+    self.assertEqual(self.cells(made.summary())["equal to it"], "\u2013")
+    self.assertNotIn("equal to it", made.outcome())
+
+  def testNotesOfAScene(self):
+    """What the reader of a mesh had to say is on the page, once."""
+
+    def change(row):
+      row["scene"]["notes"] = ["ball.obj: 3 polygons are not convex: cut"]
+      return self.wrongAgainst(False)(row)
+
+    self.assertEqual(self.page(change).html().count("Scene ball: ball.obj: 3 polygons are not convex: cut."), 1)
+
+  def testErrorsCountFromTruth(self):
+    made = self.page(self.wrongAgainst(True))
+    row = self.cells(made.summary())
+    exact = {"tile=32 binning=exact edge=int32", "tile=32 binning=bitmask edge=int32"}
+    self.assertIn("(with errors)", row["fastest"])
+    self.assertEqual({row["fastest without an error from truth"].split(",")[0], row["equal to that"]}, exact)
+    self.assertRegex(made.outcome(), "though not without errors.* Without an error it is tile=32 binning=.* edge=int32: ")
+
+    row = self.cells(self.page(self.wrongAgainst(False)).summary())
+    self.assertNotIn("(with errors)", row["fastest"])
+    self.assertEqual(row["fastest without an error from truth"], "the same")
 
 
 class Ratios(unittest.TestCase):

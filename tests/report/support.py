@@ -2,6 +2,7 @@
 
 import os
 from pathlib import Path
+import resource
 import subprocess
 import sys
 
@@ -34,12 +35,20 @@ def read(folder, allDevices=False):
   return rows.readSweep(Path(folder), kSchema, allDevices)
 
 
-def tessera(*arguments, **environment):
-  """Runs the command that TESSERA names, with output as text."""
+def tessera(*arguments, largestFile=None, stdout=subprocess.PIPE, folder=None, **environment):
+  """Runs the command that TESSERA names, in `folder`, with output as text. A limit on the size of a file, bytes, stands for a full disk."""
+
+  def limit():
+    if largestFile is not None:
+      resource.setrlimit(resource.RLIMIT_FSIZE, (largestFile, largestFile))
+
   return subprocess.run(
     [os.environ["TESSERA"], *map(str, arguments)],
-    capture_output=True,
+    stdout=stdout,
+    stderr=subprocess.PIPE,
     text=True,
     env=os.environ | environment,
     timeout=100,
+    cwd=folder,
+    preexec_fn=limit,
   )

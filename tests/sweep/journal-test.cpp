@@ -68,7 +68,7 @@ TEST_CASE("What is wrong in a journal is said with its line and key") {
            {"\"provenance\":{", "\"provenances\":{", ":3: no line of a sweep's journal: provenance: is missing"},
            {"\"id_mismatch\":null", "\"id_mismatch\":[]",
             ":3: no line of a sweep's journal: error.id_mismatch: is a list"},
-           {"\"twin\":false", "\"twin\":0", ":1: no line of a sweep's journal: twin: is 0"},
+           {"\"twin\":false", "\"twin\":0", ":1: no line of a sweep's journal: cells.0.sweep.twin: is 0"},
            {"\"cpu\":\"c\"", "\"cpu\":" + std::string(99, '[') + std::string(99, ']'),
             ":3: no line of a sweep's journal: nested"}}) {
     std::string text = whole;

@@ -8,7 +8,7 @@ namespace tessera::test {
 using harness::Json, harness::lineOf;
 
 std::string smallJournal() {
-  const Json sweep{{"title", "T"}, {"question", "Q"}, {"sha256", "0"}};
+  const Json sweep{{"title", "T"}, {"question", "Q"}, {"sha256", std::string(64, '0')}};
   Json cell{{"cell", 0}, {"name", "n"}, {"command", "c"}, {"sweep", sweep}};
   cell["sweep"].update({{"cell", 0},
                         {"group", 0},
