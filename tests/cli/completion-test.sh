@@ -31,6 +31,7 @@ completes 'tessera render --device vul' vulkan vulkan:0
 completes 'tessera render --device vulkan:' 0                # and at the colon
 completes 'tessera render me' mesh:
 completes 'tessera render mesh:refined_' refined_elephant
+completes 'tessera render --error me' mesh:                  # a flag is followed by no value
 completes 'tessera render generate:ico' icosphere
 completes "tessera render 'generate:layers?order=" 'generate:layers?order=far-to-near'  # but not within quotes
 completes 'tessera render --kernel sha' shade=
