@@ -63,9 +63,9 @@ ValueRange parseRange(const std::string& text) {
     const auto [rest, second] = std::from_chars(comma + 1, end, range.most);
     good = second == std::errc{} && rest == end;
   }
-  if (!good || !std::isfinite(range.least) || !std::isfinite(range.most - range.least) ||
-      range.least == range.most)
-    failUsage(fmt::format("--range {}: not a range; two different numbers, as float32 has them, e.g. -1,2.5, would be", text));
+  if (!good || !std::isfinite(range.least) || !std::isfinite(range.most - range.least) || range.least == range.most)
+    failUsage(fmt::format("--range {}: not a range; two different numbers, as float32 has them, e.g. -1,2.5, would be",
+                          text));
   return range;
 }
 
@@ -279,7 +279,8 @@ std::vector<std::string> partsOf(const std::string& typed, const std::string& op
     part.erase(part.find_last_not_of(' ') + 1);
     if (part.empty())
       failUsage(fmt::format("{} {}: {}; {} would be right", option, quoted(typed),
-                            typed.find(',') == typed.npos ? "nothing is there" : "nothing is on one side of a comma", right));
+                            typed.find(',') == typed.npos ? "nothing is there" : "nothing is on one side of a comma",
+                            right));
     parts.push_back(std::move(part));
     begin = end + 1;
   }

@@ -35,9 +35,9 @@ struct CompareOptions {
 /// What is held against each other, the options read.
 struct Request {
   Tolerances within, limits;
-  std::set<std::string> limited;   // channels that --at-most names, by 0, too
-  std::uint64_t maxUnpacked = 0;   // bytes; 0: by the files' sizes
-  double allowed = 0;  // pixels, or per cent of them
+  std::set<std::string> limited;  // channels that --at-most names, by 0, too
+  std::uint64_t maxUnpacked = 0;  // bytes; 0: by the files' sizes
+  double allowed = 0;             // pixels, or per cent of them
   bool perCent = false;
 
   double allowedOf(std::uint64_t pixels) const {
@@ -69,9 +69,10 @@ std::uint64_t bytesOf(const std::string& text, const std::string& option) {
   }
   const bool good = error == std::errc{} && (unit.empty() || unit == "b");
   if (!good || number == 0 || number > std::numeric_limits<std::uint64_t>::max() >> shift)
-    failUsage(fmt::format("{} {}: not a size from 1 byte to 16 EiB; a whole number, alone or with K, M, G or T behind it, "
-                          "would be right, as in 8G",
-                          option, text));
+    failUsage(
+        fmt::format("{} {}: not a size from 1 byte to 16 EiB; a whole number, alone or with K, M, G or T behind it, "
+                    "would be right, as in 8G",
+                    option, text));
   return number << shift;
 }
 
@@ -111,7 +112,8 @@ Request requestOf(const CompareOptions& options) {
   const std::string named = "--allow " + options.allow, right = "100 pixels or 0.1%";
   request.perCent = options.allow.ends_with('%');
   request.allowed = numberOf(options.allow.substr(0, options.allow.size() - request.perCent), named, right);
-  if (request.perCent && request.allowed > 100) failUsage(fmt::format("{}: more than all pixels; {} would be right", named, right));
+  if (request.perCent && request.allowed > 100)
+    failUsage(fmt::format("{}: more than all pixels; {} would be right", named, right));
   if (!request.perCent && request.allowed != std::floor(request.allowed))
     failUsage(fmt::format("{}: not a whole number of pixels; {} would be right", named, right));
   return request;

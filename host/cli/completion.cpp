@@ -88,7 +88,8 @@ Candidates imageFiles(const std::string& word) {
 
 Candidates channels(const std::string& word) {
   if (word.find('=') != word.npos) return {};  // an amount
-  return {{"depth=", "a number, or float32 steps as in 2ulp"}, {"values=", "likewise"}, {"colour=", "likewise"}};
+  constexpr const char* kAmount = "a number, or float32 steps as in 2ulp";
+  return {{"depth=", kAmount}, {"values=", kAmount}, {"colour=", kAmount}};
 }
 
 Candidates words(std::initializer_list<const char*> list) {

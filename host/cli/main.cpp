@@ -49,12 +49,12 @@ ExitCode runCommand(int argc, char** argv) {
       "'tessera help COMMAND' says more. Results go to stdout, messages to stderr.\n"
       "Exit codes: 0 done; 2 bad usage or input; 3 overflow under overflow=error; 4 the device cannot run "
       "this variant; 5 compare or parity found a difference; 130 a signal stopped sweep; 1 anything else.");
-  const std::array commands{
-      cli::addRender(app),   cli::addParity(app),      cli::addCompare(app),    cli::addPlan(app),
-      cli::addDevices(app),  cli::addVariants(app),    cli::addMeshes(app),     cli::addKernels(app),
-      cli::addExpand(app),   cli::addSweep(app),       cli::addSweepWorker(app), cli::addReport(app),
-      cli::addCompletion(app), cli::addComplete(app),  cli::addMan(app),        cli::addHelp(app),
-      cli::addVersion(app, version)};
+  const std::array commands{cli::addRender(app),     cli::addParity(app),          cli::addCompare(app),
+                            cli::addPlan(app),       cli::addDevices(app),         cli::addVariants(app),
+                            cli::addMeshes(app),     cli::addKernels(app),         cli::addExpand(app),
+                            cli::addSweep(app),      cli::addSweepWorker(app),     cli::addReport(app),
+                            cli::addCompletion(app), cli::addComplete(app),        cli::addMan(app),
+                            cli::addHelp(app),       cli::addVersion(app, version)};
   if (argc < 2) {
     say(stderr, "{}\n", cli::shortHelp(app));
     return ExitCode::kUsage;

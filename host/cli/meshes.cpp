@@ -7,13 +7,15 @@
 namespace tessera::cli {
 
 Command addMeshes(CLI::App& app) {
-  auto* const command = app.add_subcommand("meshes", "list the installed meshes and the generators that INPUT may name");
+  auto* const command =
+      app.add_subcommand("meshes", "list the installed meshes and the generators that INPUT may name");
   command->footer("Example:\n  tessera meshes");
   return {command, [] {
             const auto installed = installedMeshes();
             for (const std::string& name : installed) say(stdout, "{}{}\n", kInstalledMesh, name);
             for (const GeneratorDoc& generator : generatorDocs()) say(stdout, "generate:{}\n", generator.name);
-            if (installed.empty()) say(stderr, "no mesh is installed: Debian's libcgal-demo, with its doc folder, has some\n");
+            if (installed.empty())
+              say(stderr, "no mesh is installed: Debian's libcgal-demo, with its doc folder, has some\n");
             return ExitCode::kDone;
           }};
 }

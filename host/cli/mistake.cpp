@@ -20,16 +20,17 @@ namespace {
 
 /// Words of others for what a command does, and for what an option says.
 const std::vector<std::pair<std::string, std::string>> kOtherWords{
-    {"draw", "render"},           {"run", "render"},          {"time", "render"},         {"bench", "render"},
-    {"benchmark", "render"},      {"view", "render"},         {"diff", "compare"},        {"check", "parity"},
-    {"test", "parity"},           {"verify", "parity"},       {"axes", "variants"},       {"list", "devices"}, {"mesh", "meshes"}, {"inputs", "meshes"},
-    {"info", "devices"},          {"gpus", "devices"},        {"compile", "kernels"},     {"emit", "kernels"},
-    {"experiment", "sweep"},      {"plot", "report"},         {"complete", "completion"}, {"--width", "--size"},
-    {"--height", "--size"},       {"--resolution", "--size"}, {"--res", "--size"},        {"--gpu", "--device"},
-    {"--cpu", "--device"},        {"--backend", "--device"},  {"--axis", "--set"},        {"--frames", "--repeat"},
-    {"--iterations", "--repeat"}, {"--runs", "--repeat"},     {"--jobs", "--threads"},    {"-j", "--threads"},
-    {"-n", "--repeat"},           {"-t", "--threads"},        {"-s", "--size"},           {"-d", "--device"},
-    {"--silent", "--quiet"},      {"--field", "--attribute"}, {"--value", "--attribute"}};
+    {"draw", "render"},         {"run", "render"},        {"time", "render"},           {"bench", "render"},
+    {"benchmark", "render"},    {"view", "render"},       {"diff", "compare"},          {"check", "parity"},
+    {"test", "parity"},         {"verify", "parity"},     {"axes", "variants"},         {"list", "devices"},
+    {"mesh", "meshes"},         {"inputs", "meshes"},     {"info", "devices"},          {"gpus", "devices"},
+    {"compile", "kernels"},     {"emit", "kernels"},      {"experiment", "sweep"},      {"plot", "report"},
+    {"complete", "completion"}, {"--width", "--size"},    {"--height", "--size"},       {"--resolution", "--size"},
+    {"--res", "--size"},        {"--gpu", "--device"},    {"--cpu", "--device"},        {"--backend", "--device"},
+    {"--axis", "--set"},        {"--frames", "--repeat"}, {"--iterations", "--repeat"}, {"--runs", "--repeat"},
+    {"--jobs", "--threads"},    {"-j", "--threads"},      {"-n", "--repeat"},           {"-t", "--threads"},
+    {"-s", "--size"},           {"-d", "--device"},       {"--silent", "--quiet"},      {"--field", "--attribute"},
+    {"--value", "--attribute"}};
 
 std::string meant(const std::string& typed, const std::vector<std::string>& known) {
   for (const auto& [other, ours] : kOtherWords)
@@ -105,7 +106,8 @@ std::string equalsMistake(const CLI::App& command, const std::vector<std::string
     if (option == nullptr) continue;
     const std::string name = word.substr(0, equals), value = word.substr(equals + 1);
     if (!takesValue(*option)) return fmt::format("{}{}: it takes no value; {} alone would be right", place, word, name);
-    if (value.empty()) return fmt::format("{}{}: nothing follows the =; {} would be right", place, word, kindOf(*option));
+    if (value.empty())
+      return fmt::format("{}{}: nothing follows the =; {} would be right", place, word, kindOf(*option));
     if (!word.starts_with("--"))
       return fmt::format("{}{}: an option of one letter takes its value without =; {} {} would be right", place, word,
                          name, value);
@@ -119,8 +121,9 @@ std::string valueMistake(const CLI::App& command, const std::string& place) {
     if (!takesValue(*option)) continue;
     for (const std::string& value : option->results()) {
       if (value.empty())
-        return fmt::format("{}{}: the value is empty, like that of a variable that is not set; {} would be right", place,
-                           option->get_name(), option->get_positional() ? option->get_description() : kindOf(*option));
+        return fmt::format("{}{}: the value is empty, like that of a variable that is not set; {} would be right",
+                           place, option->get_name(),
+                           option->get_positional() ? option->get_description() : kindOf(*option));
       if (!option->get_positional() && optionOf(command, value) != nullptr)
         return fmt::format("{}{}: {} is missing: what follows is the option {}", place, option->get_name(),
                            kindOf(*option), value);
@@ -139,10 +142,12 @@ std::string countMistake(const CLI::App& command, const std::string& place) {
       continue;
     std::vector<std::string> given;  // each time, of all words of its value
     for (std::size_t at = 0; at < values.size(); at += most)
-      given.push_back(fmt::format("{}", fmt::join(values.begin() + static_cast<std::ptrdiff_t>(at),
-                                                  values.begin() + static_cast<std::ptrdiff_t>(std::min(at + most, values.size())), " ")));
+      given.push_back(fmt::format(
+          "{}", fmt::join(values.begin() + static_cast<std::ptrdiff_t>(at),
+                          values.begin() + static_cast<std::ptrdiff_t>(std::min(at + most, values.size())), " ")));
     return fmt::format("{}{} is given {}, as {}; once would be right", place, option->get_name(),
-                       given.size() == 2 ? "twice" : fmt::format("{} times", given.size()), fmt::join(given, " and as "));
+                       given.size() == 2 ? "twice" : fmt::format("{} times", given.size()),
+                       fmt::join(given, " and as "));
   }
   return "";
 }
@@ -213,8 +218,9 @@ std::string exampleText(const CLI::App& command, const CLI::Option* option = nul
   for (const std::string& example : examplesOf(command)) {
     std::istringstream words(example);
     const std::vector<std::string> all{std::istream_iterator<std::string>(words), {}};
-    const bool has = option == nullptr ||
-                     std::ranges::any_of(all, [&](const std::string& word) { return optionOf(command, word) == option; });
+    const bool has = option == nullptr || std::ranges::any_of(all, [&](const std::string& word) {
+                       return optionOf(command, word) == option;
+                     });
     if (has && all.size() > 1 && all[1] == command.get_name()) return "; for example: " + example;
   }
   return usageHint(command);

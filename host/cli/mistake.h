@@ -7,8 +7,8 @@
 
 namespace tessera::cli {
 
-/// What is wrong on a command line that was parsed without an error: CLI11 takes an empty value, and an option's name in
-/// the place of one. `words` are those after the program's name. "" where nothing is.
+/// What is wrong on a command line that was parsed without an error: CLI11 takes an empty value, and an option's name
+/// in the place of one. `words` are those after the program's name. "" where nothing is.
 std::string mistakeText(const CLI::App& app, const std::vector<std::string>& words);
 
 /// `error` is what parsing ended with. "" where it is a request for help or the version that can be met.

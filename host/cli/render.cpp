@@ -133,7 +133,8 @@ ExitCode render(const RenderOptions& options) {
     throw;
   }
   if (scene.notes.empty() && !scene.triangles.empty() && coveredPixels(image) == 0)
-    say(stderr, "warning: {}: no pixel is covered: all of it lies outside the view, between samples or edge-on to the camera\n",
+    say(stderr,
+        "warning: {}: no pixel is covered: all of it lies outside the view, between samples or edge-on to the camera\n",
         scene.name);
   const ImageFacts facts = images.empty() ? ImageFacts{} : factsOf(run);
   for (auto& output : images) output.write(image, run.attributeRange, facts);

@@ -12,7 +12,8 @@ namespace tessera::cli {
 void addChanges(CLI::App& app, harness::Changes& changes) {
   addCount(app, "--rounds", changes.rounds, 1, 1000, "rounds, in place of the file's");
   app.add_option_function<std::string>(
-         "--devices", [&changes](const std::string& typed) {
+         "--devices",
+         [&changes](const std::string& typed) {
            if (!typed.empty()) changes.devices = partsOf(typed, "--devices", "cpu,vulkan");  // else it is refused later
          },
          "cpu, vulkan, vulkan:N or vulkan:NAME, with commas between, in place of the file's")

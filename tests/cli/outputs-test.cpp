@@ -100,8 +100,8 @@ TEST_CASE("What stdout cannot take is an error with its cause whatever was asked
              "title = \"T\"\nquestion = \"Q?\"\nsizes = [16]\n[scenes]\nball = \"generate:icosphere?level=1\"\n"
              "[axes]\ntile = [8, 16]\n");
   for (const char* const arguments :
-       {"--version", "--help", "version", "help render", "render --help", "variants", "meshes", "man", "completion bash",
-        "plan two.obj", "expand tile.toml --no-estimate", "render two.obj --size 16"}) {
+       {"--version", "--help", "version", "help render", "render --help", "variants", "meshes", "man",
+        "completion bash", "plan two.obj", "expand tile.toml --no-estimate", "render two.obj --size 16"}) {
     desk.tessera(std::string(arguments) + " >/dev/full 2>said; echo $? >code #");
     INFO("tessera " << arguments);
     CHECK(desk.read("code") == "1\n");

@@ -220,23 +220,44 @@ TEST_CASE("What an option wants is said in our own words") {
 TEST_CASE("A value that says nothing is refused in every option that takes one") {
   Desk desk;
   desk.write("two.obj", tessera::test::twoTriangles());
-  for (const char* const arguments :
-       {"render ''", "render two.obj -o ''", "render two.obj --size ''", "render two.obj --device ''",
-        "render two.obj --set ''", "render two.obj --attribute ''", "render two.obj --attribute x --range ''",
-        "render two.obj --kernel ''", "render two.obj --threads ''", "render two.obj --repeat ''",
-        "render two.obj --json ''", "parity two.obj --replay ''", "parity two.obj --json ''", "compare '' b.exr",
-        "compare a.exr b.exr -o ''", "compare a.exr b.exr --tolerance ''", "compare a.exr b.exr --allow ''",
-        "compare a.exr b.exr --at-most ''", "compare a.exr b.exr --max-unpacked ''", "kernels --emit wgsl ''",
-        "sweep '' --out new", "sweep a.toml --out ''", "sweep a.toml --out new --job ''", "expand a.toml --devices ''",
-        "expand a.toml --rounds ''", "report ''", "report . --out ''", "report . --export ''", "help ''",
-        "completion ''"})
+  for (const char* const arguments : {"render ''",
+                                      "render two.obj -o ''",
+                                      "render two.obj --size ''",
+                                      "render two.obj --device ''",
+                                      "render two.obj --set ''",
+                                      "render two.obj --attribute ''",
+                                      "render two.obj --attribute x --range ''",
+                                      "render two.obj --kernel ''",
+                                      "render two.obj --threads ''",
+                                      "render two.obj --repeat ''",
+                                      "render two.obj --json ''",
+                                      "parity two.obj --replay ''",
+                                      "parity two.obj --json ''",
+                                      "compare '' b.exr",
+                                      "compare a.exr b.exr -o ''",
+                                      "compare a.exr b.exr --tolerance ''",
+                                      "compare a.exr b.exr --allow ''",
+                                      "compare a.exr b.exr --at-most ''",
+                                      "compare a.exr b.exr --max-unpacked ''",
+                                      "kernels --emit wgsl ''",
+                                      "sweep '' --out new",
+                                      "sweep a.toml --out ''",
+                                      "sweep a.toml --out new --job ''",
+                                      "expand a.toml --devices ''",
+                                      "expand a.toml --rounds ''",
+                                      "report ''",
+                                      "report . --out ''",
+                                      "report . --export ''",
+                                      "help ''",
+                                      "completion ''"})
     check(desk, {arguments, "the value is empty"});
 }
 
 TEST_CASE("Lists have something on both sides of a comma") {
   Desk desk;
   desk.write("two.obj", tessera::test::twoTriangles());
-  for (const char* const list : {"tile=8,,", "tile=8,", ",tile=8", ",", "' '", "tile=8,,cull=back", "'tile=8, ,cull=back'"})
+  for (const char* const list :
+       {"tile=8,,", "tile=8,", ",tile=8", ",", "' '", "tile=8,,cull=back", "'tile=8, ,cull=back'"})
     check(desk, {(std::string("plan two.obj --set ") + list).c_str(), "nothing is "});
   for (const char* const list : {"cpu,", ",", ",cpu", "cpu,,vulkan"})
     check(desk, {(std::string("expand a.toml --devices ") + list).c_str(), "nothing is on one side of a comma"});
@@ -250,7 +271,8 @@ TEST_CASE("Numbers that an option cannot mean are refused") {
   };
   const char* const kNumbers[] = {"--repeat", "--threads"};
   for (const std::string option : kNumbers)
-    each("render two.obj " + option + " ", {"-1", "0", "1.5", "1e3", "nan", "inf", "3x", "' 3'", "+3", "99999999999999999999"},
+    each("render two.obj " + option + " ",
+         {"-1", "0", "1.5", "1e3", "nan", "inf", "3x", "' 3'", "+3", "99999999999999999999"},
          "is no whole number from 1 to");
   each("expand a.toml --rounds ", {"-1", "0", "1001", "2x", "nan"}, "is no whole number from 1 to 1000");
   each("render two.obj --attribute x --range ",
@@ -260,17 +282,20 @@ TEST_CASE("Numbers that an option cannot mean are refused") {
     each(compare + option, {"depth=-1", "depth=nan", "depth=inf", "depth=1e999", "depth=", "depth=1x", "depth=ulp"},
          "not a number from 0 up");
     each(compare + option, {"depth=1.5ulp"}, "not a whole number of steps");
-    each(compare + option, {"depth=1 " }, "a.exr");
+    each(compare + option, {"depth=1 "}, "a.exr");
     check(desk, {(compare + option + "depth=1 " + option + "depth=2").c_str(), "depth is given as a number twice"});
-    check(desk, {(compare + option + "depth=1ulp " + option + "depth=1ulp").c_str(), "depth is given in float32 steps twice"});
+    check(desk, {(compare + option + "depth=1ulp " + option + "depth=1ulp").c_str(),
+                 "depth is given in float32 steps twice"});
   }
   each(compare + "--allow ", {"-1", "nan", "inf", "%", "1x", "1%%", "-1%"}, "not a number from 0 up");
   each(compare + "--allow ", {"101%", "100.1%", "1e9%"}, "more than all pixels");
   each(compare + "--allow ", {"1.5", "0.1"}, "not a whole number of pixels");
-  each(compare + "--max-unpacked ",
-       {"-1", "-1K", "0", "0G", "nan", "inf", "1.5G", "8Q", "8GX", "'8 G B'", "K", "16E", "20000000000G", "1e9", "0x10"},
-       "not a size from 1 byte");
-  each(compare + "--max-unpacked ", {"8", "8b", "8K", "8kb", "8KiB", "'8 G'", "15E"}, "a.exr: ");  // the first that it misses
+  each(
+      compare + "--max-unpacked ",
+      {"-1", "-1K", "0", "0G", "nan", "inf", "1.5G", "8Q", "8GX", "'8 G B'", "K", "16E", "20000000000G", "1e9", "0x10"},
+      "not a size from 1 byte");
+  each(compare + "--max-unpacked ", {"8", "8b", "8K", "8kb", "8KiB", "'8 G'", "15E"},
+       "a.exr: ");  // the first that it misses
 }
 
 TEST_CASE("The program alone says what to type and exits with 2") {
@@ -375,11 +400,11 @@ TEST_CASE("Quiet commands say nothing of their progress or of what they did whil
              "[scenes]\nball = \"generate:icosphere?level=1\"\n[axes]\ntile = [8]\n");
   REQUIRE(desk.tessera("render two.obj --size 16 -o a.exr").code == 0);
   REQUIRE(desk.tessera("render two.obj --size 16 -o b.exr --set shade=id,cull=front").code == 0);
-  for (const auto& [arguments, code] : std::initializer_list<std::pair<const char*, int>>{
-           {"sweep tile.toml --out cold -q", 0},
-           {"compare a.exr a.exr -q", 0},
-           {"compare a.exr b.exr -o c.png --quiet", 5},
-           {"kernels --emit spirv out -q", 0}}) {
+  for (const auto& [arguments, code] :
+       std::initializer_list<std::pair<const char*, int>>{{"sweep tile.toml --out cold -q", 0},
+                                                          {"compare a.exr a.exr -q", 0},
+                                                          {"compare a.exr b.exr -o c.png --quiet", 5},
+                                                          {"kernels --emit spirv out -q", 0}}) {
     const auto outcome = desk.tessera(arguments, "TESSERA_CACHE=$PWD/cache");
     INFO("tessera " << arguments);
     CHECK(outcome.code == code);
