@@ -61,8 +61,8 @@ std::vector<std::array<double, 2>> project(const std::vector<glm::dvec3>& points
   return flat;
 }
 
-/// Takes the tips of spikes, sides walked out and back, out of `loop`, and gives their triangles, which have no area.
-/// They would make earcut cover what lies outside.
+/// Takes the tips of spikes, sides walked out and back, out of `loop`, and gives their triangles, which have no area. They
+/// would make earcut cover what lies outside.
 std::vector<Triangle> takeSpikes(const std::vector<glm::dvec3>& points, Loop& loop) {
   std::vector<Triangle> triangles;
   const auto take = [&](std::size_t i) {
@@ -77,7 +77,7 @@ std::vector<Triangle> takeSpikes(const std::vector<glm::dvec3>& points, Loop& lo
     if (!(glm::dot(tip - before, after - tip) < 0 && glm::cross(tip - before, after - tip) == glm::dvec3(0))) continue;
     take(i);
     if (before == after && loop.size() > 3) take(i % loop.size());  // the corner that is there twice now
-    i = static_cast<std::size_t>(-1);                               // the corners beside it may be tips now
+    i = static_cast<std::size_t>(-1);  // the corners beside it may be tips now
   }
   return triangles;
 }

@@ -31,8 +31,8 @@ class Scanner {
   /// Leaves the rest of the line and goes to the next one that has words; false at the end of the text. The first call
   /// goes to the first such line.
   bool line();
-  /// Leaves the rest of a line that is not read. A backslash at its end belongs to a name, such as a folder's, and the
-  /// line ends there, if the next line begins with a word that `begins` a line of its own.
+  /// Leaves the rest of a line that is not read. A backslash at its end belongs to a name, such as a folder's, and the line
+  /// ends there, if the next line begins with a word that `begins` a line of its own.
   void leaveLine(bool (*begins)(std::string_view));
   /// Goes to the next word of this line; false at the line's end.
   bool more();

@@ -147,9 +147,7 @@ std::vector<Target> targets(const fs::path& folder) {
            [](const fs::path& path) {
              for (const bool quick : {false, true}) harness::cells(harness::readSweep(path, quick));
            }},
-          {"journal", ".jsonl", {test::smallJournal()}, [](const fs::path& path) {
-             harness::readJournal(path.parent_path());
-           }}};
+          {"journal", ".jsonl", {test::smallJournal()}, [](const fs::path& path) { harness::readJournal(path.parent_path()); }}};
 }
 
 }  // namespace tessera

@@ -1,5 +1,6 @@
 // What images say about what they depend on, and that two devices write one file.
 #include <OpenImageIO/imageio.h>
+
 #include <fmt/format.h>
 
 #include <array>
