@@ -98,7 +98,7 @@ fs::path installedMesh(std::string_view name) {
     const auto names = installedMeshes();
     if (std::ranges::find(names, name) == names.end()) {
       const std::string close = nearest(name, names);
-      failUsage(fmt::format("mesh:{}: no such mesh; {}'tessera render mesh:' lists the {} there are", name,
+      failUsage(fmt::format("mesh:{}: no such mesh; {}'tessera meshes' lists the {} there are", name,
                             close.empty() ? "" : fmt::format("did you mean mesh:{}? ", close), names.size()));
     }
     failUsage(

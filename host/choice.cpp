@@ -20,6 +20,18 @@ std::optional<std::string> missingFeature(const AxisValue& value, const DeviceIn
   return std::nullopt;
 }
 
+Variant settable(const Variant& resolved) {
+  Variant result;
+  for (const auto& [name, value] : resolved.values()) {
+    const bool idle = std::ranges::any_of(axisRules(), [&](const AxisRule& rule) {
+      return rule.axis == name && rule.values.empty() && resolved.has(rule.other) &&
+             std::ranges::count(rule.only, resolved.get(rule.other)) == 0;
+    });
+    if (!idle) result.set(name, value);
+  }
+  return result;
+}
+
 /// The rule that `value` breaks beside what was asked for and taken.
 const AxisRule* Choice::broken(const std::string& axis, const std::string& value) const {
   for (const AxisRule& rule : axisRules()) {

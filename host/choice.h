@@ -14,6 +14,10 @@ namespace tessera {
 /// What of the features that a value needs the device lacks, in words; nothing if it has them all.
 std::optional<std::string> missingFeature(const AxisValue& value, const DeviceInfo& device);
 
+/// A resolved variant without what says nothing beside the rest, such as a capacity where there are no queues, and what
+/// is therefore refused when it is set. With what is left set, the plan is the same.
+Variant settable(const Variant& resolved);
+
 class Choice {
  public:
   Choice(const Variant& asked, const DeviceInfo& device) : asked_(asked), device_(device) {}

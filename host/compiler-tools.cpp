@@ -42,7 +42,11 @@ std::string firstLine(const std::string& text) { return text.substr(0, text.find
 
 std::string run(const std::vector<std::string>& arguments) {
   const ProcessResult result = runProcess(arguments);
-  if (!result.ok()) fail(fmt::format("{}: {}", fmt::join(arguments, " "), firstLine(result.output)));
+  if (!result.ok())
+    fail(fmt::format("'{}' ended with {} and {}", fmt::join(arguments, " "),
+                     result.status > 128 ? fmt::format("signal {}", result.status - 128)
+                                         : fmt::format("exit status {}", result.status),
+                     result.output.empty() ? "printed nothing" : "printed: " + firstLine(result.output)));
   return result.output;
 }
 
@@ -185,7 +189,17 @@ CxxInfo resolveCxx(ToolMemory& memory) {
   const std::string compiler = info.path.string();
   const std::string machine = "|" + processorIdentity();
   info.targetMacros = memory.recall("macros" + machine, info.path, [&] {
-    return run({compiler, "-march=native", "-dM", "-E", "-x", "c++", "/dev/null"});
+    const std::vector<std::string> question{compiler, "-march=native", "-dM", "-E", "-x", "c++", "/dev/null"};
+    const std::string named = chosen.empty() ? wanted : "TESSERA_CXX=" + chosen;
+    std::string why;
+    try {
+      std::string macros = run(question);
+      if (macros.find("#define __cplusplus ") != std::string::npos) return macros;
+      why = fmt::format("'{}' names no macro __cplusplus", fmt::join(question, " "));
+    } catch (const Error& error) {
+      why = error.what();
+    }
+    failUsage(fmt::format("{}: no C++ compiler that will do: {}; a g++ or clang++ would be right", named, why));
   });
   const std::string version = memory.recall("version", info.path, [&] {
     return firstLine(run({compiler, "--version"}));

@@ -25,4 +25,10 @@ void say(std::FILE* file, fmt::format_string<Arguments...> format, Arguments&&..
     throw std::system_error(errno, std::generic_category());
 }
 
+/// Hands on what stdout still holds. Throws std::system_error, with the cause, where it takes no more: a flush whose
+/// failure nobody looks at loses the cause.
+inline void flushStdout() {
+  if (std::fflush(stdout) != 0) throw std::system_error(errno, std::generic_category());
+}
+
 }  // namespace tessera

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "experiments/harness/fields.h"
+#include "host/cli/progress.h"
 #include "host/error.h"
 
 extern char** environ;
@@ -85,8 +86,8 @@ WorkerProcess::WorkerProcess(Interrupts& interrupts) : interrupts_(interrupts) {
   sigaddset(&defaults, SIGPIPE);
   posix_spawnattr_setsigdefault(&attributes, &defaults);
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
-  char name[] = "tessera", command[] = "sweep-worker";
-  char* const arguments[] = {name, command, nullptr};
+  char name[] = "tessera", command[] = "sweep-worker", quiet[] = "--quiet";
+  char* const arguments[] = {name, command, cli::Progress::silenced() ? quiet : nullptr, nullptr};
   // The program that runs, also where a new one has been built in its place.
   const int error = posix_spawn(&child_, "/proc/self/exe", &actions, &attributes, arguments, environ);
   posix_spawn_file_actions_destroy(&actions);

@@ -22,6 +22,7 @@ Command addCompare(CLI::App& app);
 Command addPlan(CLI::App& app);
 Command addDevices(CLI::App& app);
 Command addVariants(CLI::App& app);
+Command addMeshes(CLI::App& app);
 Command addKernels(CLI::App& app);
 Command addExpand(CLI::App& app);
 Command addSweep(CLI::App& app);

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdio>
 #include <set>
+#include <sstream>
 
 #include "datasets/input-files.h"
 #include "datasets/input.h"
@@ -62,8 +63,9 @@ ValueRange parseRange(const std::string& text) {
     const auto [rest, second] = std::from_chars(comma + 1, end, range.most);
     good = second == std::errc{} && rest == end;
   }
-  if (!good || !std::isfinite(range.least) || !std::isfinite(range.most) || range.least == range.most)
-    failUsage(fmt::format("--range {}: not a range; two different numbers, e.g. -1,2.5, would be", text));
+  if (!good || !std::isfinite(range.least) || !std::isfinite(range.most - range.least) || range.least == range.most)
+    failUsage(fmt::format("--range {}: not a range; two different numbers, as float32 has them, e.g. -1,2.5, would be",
+                          text));
   return range;
 }
 
@@ -168,18 +170,17 @@ void addDevice(CLI::App& app, Options& options, bool many) {
 std::vector<std::string> settingsOf(const Options& options) {
   std::vector<std::string> settings;
   for (const std::string& typed : options.settings) {
-    std::string_view rest = typed;
-    do {  // no value holds a comma or a blank
-      const std::string_view setting = rest.substr(0, rest.find_first_of(", "));
-      const bool first = setting.data() == typed.data();
-      rest.remove_prefix(std::min(setting.size() + 1, rest.size()));
-      if (setting.empty() && !first) continue;
-      if (!first && setting.find('=') == setting.npos)
-        failUsage(
-            fmt::format("--set {}: '{}' has no axis; AXIS=VALUE,AXIS=VALUE would be right, with one value an axis",
-                        typed, setting));
-      settings.emplace_back(setting);
-    } while (!rest.empty());
+    bool first = true;
+    for (const std::string& part : partsOf(typed, "--set", "AXIS=VALUE,AXIS=VALUE")) {
+      std::istringstream words(part);  // no value holds a blank
+      for (std::string setting; words >> setting; first = false) {
+        if (!first && setting.find('=') == setting.npos)
+          failUsage(
+              fmt::format("--set {}: '{}' has no axis; AXIS=VALUE,AXIS=VALUE would be right, with one value an axis",
+                          typed, setting));
+        settings.push_back(setting);
+      }
+    }
   }
   return settings;
 }
@@ -273,7 +274,22 @@ Route routeOf(const DeviceInfo& device, const Variant& variant) {
   return variant.get("route", "spirv") == "glsl" ? Route::kGlsl : Route::kSpirv;
 }
 
-std::string isNamed(const std::string& file) { return file.empty() ? "a file's name would be right, not nothing" : ""; }
+std::vector<std::string> partsOf(const std::string& typed, const std::string& option, const std::string& right) {
+  std::vector<std::string> parts;
+  for (std::size_t begin = 0; begin <= typed.size();) {
+    const std::size_t end = std::min(typed.find(',', begin), typed.size());
+    std::string part = typed.substr(begin, end - begin);
+    part.erase(0, part.find_first_not_of(' '));
+    part.erase(part.find_last_not_of(' ') + 1);
+    if (part.empty())
+      failUsage(fmt::format("{} {}: {}; {} would be right", option, quoted(typed),
+                            typed.find(',') == typed.npos ? "nothing is there" : "nothing is on one side of a comma",
+                            right));
+    parts.push_back(std::move(part));
+    begin = end + 1;
+  }
+  return parts;
+}
 
 std::vector<fs::path> inputsOf(const Options& options) {
   std::vector<fs::path> files = inputFiles(options.input);

@@ -61,8 +61,9 @@ std::vector<std::string> presentDevices();
 /// How kernels reach this device under this variant.
 Route routeOf(const DeviceInfo& device, const Variant& variant);
 
-/// For CLI11: what is wrong with a file's name that is empty, as that of a variable that is not set.
-std::string isNamed(const std::string& file);
+/// What stands between the commas of an option's value, without blanks around it. Throws kUsage where it is nothing,
+/// saying that `right` would be right.
+std::vector<std::string> partsOf(const std::string& typed, const std::string& option, const std::string& right);
 /// All files that the command reads: the input, what a scene names, the user's kernels.
 std::vector<std::filesystem::path> inputsOf(const Options& options);
 

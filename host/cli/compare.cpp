@@ -6,11 +6,14 @@
 #include <cmath>
 #include <cstdio>
 #include <iterator>
+#include <limits>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 
+#include "datasets/text.h"
 #include "host/cli/commands.h"
 #include "host/cli/common.h"
 #include "host/cli/difference.h"
@@ -24,15 +27,17 @@ namespace tessera::cli {
 namespace {
 
 struct CompareOptions {
-  std::string a, b, output, json, allow;
+  std::string a, b, output, json, allow, maxUnpacked;
   std::vector<std::string> tolerances, limits;
-  std::uint64_t maxUnpacked = 0;
+  bool quiet = false;
 };
 
 /// What is held against each other, the options read.
 struct Request {
   Tolerances within, limits;
-  double allowed = 0;  // pixels, or per cent of them
+  std::set<std::string> limited;  // channels that --at-most names, by 0, too
+  std::uint64_t maxUnpacked = 0;  // bytes; 0: by the files' sizes
+  double allowed = 0;             // pixels, or per cent of them
   bool perCent = false;
 
   double allowedOf(std::uint64_t pixels) const {
@@ -48,8 +53,32 @@ double numberOf(const std::string& text, const std::string& option, const std::s
   return value;
 }
 
+/// A size in bytes: "1000", "8G", "8 GiB". Units go by 1024.
+std::uint64_t bytesOf(const std::string& text, const std::string& option) {
+  constexpr std::string_view kUnits = "kmgtpe";
+  std::uint64_t number = 0;
+  const char* const end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, number);
+  std::string unit = lowerCase({rest, end});
+  unit.erase(0, unit.find_first_not_of(' '));
+  unsigned shift = 0;
+  if (const std::size_t at = unit.empty() ? kUnits.npos : kUnits.find(unit[0]); at != kUnits.npos) {
+    shift = 10 * static_cast<unsigned>(at + 1);
+    unit.erase(0, 1);
+    if (unit == "ib") unit.clear();
+  }
+  const bool good = error == std::errc{} && (unit.empty() || unit == "b");
+  if (!good || number == 0 || number > std::numeric_limits<std::uint64_t>::max() >> shift)
+    failUsage(
+        fmt::format("{} {}: not a size from 1 byte to 16 EiB; a whole number, alone or with K, M, G or T behind it, "
+                    "would be right, as in 8G",
+                    option, text));
+  return number << shift;
+}
+
 Tolerances tolerancesOf(const std::vector<std::string>& texts, const std::string& option) {
   Tolerances result;
+  std::set<std::pair<std::string, bool>> given;  // a channel, in steps or not
   for (const std::string& text : texts) {
     const std::string named = fmt::format("{} {}", option, text), channel = text.substr(0, text.find('='));
     Amount* const amount = channel == "depth"    ? &result.depth
@@ -62,17 +91,31 @@ Tolerances tolerancesOf(const std::vector<std::string>& texts, const std::string
     std::string number = text.substr(channel.size() + 1);
     const bool steps = number.ends_with("ulp");
     if (steps) number.resize(number.size() - 3);
-    (steps ? amount->steps : amount->absolute) = numberOf(number, named, channel + (steps ? "=4ulp" : "=1e-6"));
+    if (!given.emplace(channel, steps).second)
+      failUsage(fmt::format("{}: {} is given {} twice; once would be right", named, channel,
+                            steps ? "in float32 steps" : "as a number"));
+    const std::string right = channel + (steps ? "=4ulp" : "=1e-6");
+    const double value = (steps ? amount->steps : amount->absolute) = numberOf(number, named, right);
+    if (steps && value != std::floor(value))
+      failUsage(fmt::format("{}: not a whole number of steps; {} would be right", named, right));
   }
   return result;
 }
 
 Request requestOf(const CompareOptions& options) {
-  Request request{tolerancesOf(options.tolerances, "--tolerance"), tolerancesOf(options.limits, "--at-most")};
+  Request request;
+  request.within = tolerancesOf(options.tolerances, "--tolerance");
+  request.limits = tolerancesOf(options.limits, "--at-most");
+  for (const std::string& text : options.limits) request.limited.insert(text.substr(0, text.find('=')));
+  if (!options.maxUnpacked.empty()) request.maxUnpacked = bytesOf(options.maxUnpacked, "--max-unpacked");
   if (options.allow.empty()) return request;
+  const std::string named = "--allow " + options.allow, right = "100 pixels or 0.1%";
   request.perCent = options.allow.ends_with('%');
-  request.allowed = numberOf(options.allow.substr(0, options.allow.size() - request.perCent),
-                             "--allow " + options.allow, "100 pixels or 0.1%");
+  request.allowed = numberOf(options.allow.substr(0, options.allow.size() - request.perCent), named, right);
+  if (request.perCent && request.allowed > 100)
+    failUsage(fmt::format("{}: more than all pixels; {} would be right", named, right));
+  if (!request.perCent && request.allowed != std::floor(request.allowed))
+    failUsage(fmt::format("{}: not a whole number of pixels; {} would be right", named, right));
   return request;
 }
 
@@ -125,19 +168,18 @@ Verdict verdictOf(const Request& request, const Outcome& outcome) {
   const bool tooMany = static_cast<double>(within.anywhere) > request.allowedOf(within.pixels);
   // Beyond the limit for one channel says nothing of those without a limit.
   const Difference limits = outcome.limits.difference();
-  const auto broken = [](const Amount& amount, const Difference::Count& count) {
-    return amount.any() && count.value_or(0);
+  const auto broken = [&](const char* channel, const Difference::Count& count) {
+    return request.limited.contains(channel) && count.value_or(0);
   };
-  const bool tooFar = broken(request.limits.depth, limits.depth) ||
-                      broken(request.limits.attribute, limits.attribute) ||
-                      broken(request.limits.colour, limits.colour);
+  const bool tooFar =
+      broken("depth", limits.depth) || broken("values", limits.attribute) || broken("colour", limits.colour);
   if (tooMany || tooFar) return {"different", ExitCode::kDifference};
   return {"equal within the tolerances", ExitCode::kDone};
 }
 
 /// Reads both, and writes the picture of where they differ, a band of rows at a time.
 Outcome compareFiles(const CompareOptions& options, const Request& request, std::optional<ImageOutput>& output) {
-  ImageReader a(options.a, options.maxUnpacked), b(options.b, options.maxUnpacked);
+  ImageReader a(options.a, request.maxUnpacked), b(options.b, request.maxUnpacked);
   Outcome outcome{Comparison(), Comparison(request.within),      Comparison(request.limits), {},
                   {},           otherFacts(a.facts(), b.facts())};
   if (a.width() != b.width() || a.height() != b.height())
@@ -205,7 +247,7 @@ std::string outcomeJson(const CompareOptions& options, const Request& request, c
                  {"exit_code", static_cast<int>(verdict.code)},
                  {"bits", json(outcome.bits.difference())}};
   result["beyond_tolerance"] = request.within.any() ? json(outcome.within.difference()) : Json();
-  result["beyond_limit"] = request.limits.any() ? json(outcome.limits.difference()) : Json();
+  result["beyond_limit"] = !request.limited.empty() ? json(outcome.limits.difference()) : Json();
   result["depends_on"] = Json::object();
   for (const auto& [name, values] : outcome.facts)
     for (const auto& value : values) result["depends_on"][name].push_back(value ? Json(*value) : Json());
@@ -223,6 +265,7 @@ ExitCode runCompare(const CompareOptions& options) {
   if (!options.json.empty()) rows.emplace(options.json);
   const Outcome outcome = compareFiles(options, request, output);
   if (rows) rows->append(outcomeJson(options, request, outcome));
+  if (options.quiet) return verdictOf(request, outcome).code;
   const bool stdoutIsTaken = std::ranges::any_of(outputs, isStdout);
   say(stdoutIsTaken ? stderr : stdout, "{}", outcomeText(options, request, outcome));
   return verdictOf(request, outcome).code;
@@ -239,8 +282,7 @@ Command addCompare(CLI::App& app) {
   command
       ->add_option("-o,--output", options->output,
                    "a picture of where they differ; a pipe or - needs its format, as in png:-")
-      ->type_name("FILE.png")
-      ->check(isNamed);
+      ->type_name("IMAGE.png");
   command
       ->add_option(
           "--tolerance", options->tolerances,
@@ -259,19 +301,20 @@ Command addCompare(CLI::App& app) {
       ->type_name("CHANNEL=AMOUNT")
       ->allow_extra_args(false);
   command->add_option("--json", options->json, "add the counts, one line of JSON, to FILE's end; - is stdout")
-      ->type_name("FILE")
-      ->check(isNamed);
+      ->type_name("FILE");
   command
       ->add_option(
           "--max-unpacked", options->maxUnpacked,
           "read a file that unpacks to this size (as in 8G); if not given 512 MiB or 1100 times the file's size, "
           "the larger")
-      ->type_name("SIZE")
-      ->transform(CLI::AsSizeValue(false));
+      ->type_name("SIZE");
+  addQuiet(*command, options->quiet);
   command->footer(
       "Examples:\n"
+      "  tessera render mesh:refined_elephant -o cpu.exr --set shade=flat\n"
+      "  tessera render mesh:refined_elephant -o gpu.exr --set shade=flat --device vulkan\n"
       "  tessera compare cpu.exr gpu.exr -o difference.png\n"
-      "  tessera compare a.exr b.exr --tolerance colour=0.004 --allow 0.1% --at-most colour=0.1 --json -");
+      "  tessera compare cpu.exr gpu.exr --tolerance colour=0.004 --allow 0.1% --at-most colour=0.1 --json -");
   return {command, [options] { return runCompare(*options); }};
 }
 

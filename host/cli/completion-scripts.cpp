@@ -31,7 +31,8 @@ _tessera() {
         [[ $candidate == *' '* ]] && before=${candidate#* }
         compopt -o filenames 2>/dev/null
         while IFS= read -r candidate; do
-          COMPREPLY+=("${candidate}")
+          candidate=$before$candidate
+          COMPREPLY+=("${candidate#"$cut"}")
         done < <(compgen $action -- "${word#"$before"}") ;;
       *)
         [[ $candidate == *[=:] ]] && compopt -o nospace 2>/dev/null

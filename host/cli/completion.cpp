@@ -79,6 +79,19 @@ Candidates kernelFiles(const std::string& word) {
   return all;
 }
 
+/// A format before the name, as in png:picture, is settled.
+Candidates imageFiles(const std::string& word) {
+  for (const std::string format : {"png:", "exr:"})
+    if (word.starts_with(format)) return {{":files " + format, ""}};
+  return {{":files", ""}};
+}
+
+Candidates channels(const std::string& word) {
+  if (word.find('=') != word.npos) return {};  // an amount
+  constexpr const char* kAmount = "a number, or float32 steps as in 2ulp";
+  return {{"depth=", kAmount}, {"values=", kAmount}, {"colour=", kAmount}};
+}
+
 Candidates words(std::initializer_list<const char*> list) {
   Candidates all;
   for (const char* const word : list) all.push_back({word, ""});
@@ -93,7 +106,9 @@ Candidates valuesOf(const CLI::App& app, const std::string& kind, const std::str
   if (kind == "INPUT") return inputs(word);
   if (kind == "SHELL") return words({"bash", "zsh", "fish"});
   if (kind == "NAME") return words({"x", "y", "z"});
-  if (kind == "DIR") return {{":folders", ""}};
+  if (kind == "CHANNEL=AMOUNT") return channels(word);
+  if (kind == "DIR" || kind == "FOLDER") return {{":folders", ""}};
+  if (kind == "IMAGE" || kind == "IMAGE.png") return imageFiles(word);
   if (kind == "TARGET DIR") {
     Candidates all;
     for (const EmitTarget& target : emitTargets()) all.push_back({target.name, ""});
@@ -131,7 +146,7 @@ Place placeAfter(const CLI::App& command, const std::vector<std::string>& words)
       ++place.arguments;
     } else if (word.find('=') == word.npos) {
       const CLI::Option* const option = optionNamed(command, word);
-      if (option != nullptr && option->get_type_size() != 0) place.option = option;
+      if (option != nullptr && takesValue(*option)) place.option = option;
       place.value = 0;
     }
   }

@@ -15,6 +15,7 @@
 #include "experiments/harness/survey.h"
 #include "experiments/harness/sweep-file.h"
 #include "host/cli/commands.h"
+#include "host/cli/common.h"
 #include "host/cli/table.h"
 #include "host/terminal.h"
 
@@ -25,7 +26,7 @@ using namespace tessera::harness;
 
 struct ExpandOptions {
   std::string sweep;
-  bool quick = false, json = false, noEstimate = false, allowKernels = false;
+  bool quick = false, json = false, noEstimate = false, allowKernels = false, quiet = false;
   Changes changes;
 };
 
@@ -171,7 +172,7 @@ ExitCode expand(const ExpandOptions& options) {
         "compiled\n",
         grouped(all.size()), grouped(refused), sweep.rounds, sweep.warmUp, sweep.repeats, grouped(surveyed.kernels),
         grouped(surveyed.uncompiled.size()));
-    std::fflush(stdout);
+    flushStdout();
   }
   std::optional<Estimate> time;
   const bool kernelsMayRun = options.allowKernels || sweep.foreignKernel.empty();
@@ -198,6 +199,7 @@ Command addExpand(CLI::App& app) {
   command->add_flag("--allow-kernels", options->allowKernels,
                     "render with files of [kernels] that lie outside the sweep's folder, too: a kernel is native code");
   command->add_flag("--json", options->json, "print JSON");
+  addQuiet(*command, options->quiet);
   command->footer("Example:\n  tessera expand experiments/tile-size/sweep.toml");
   return {command, [options] { return expand(*options); }};
 }

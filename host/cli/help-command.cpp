@@ -67,7 +67,9 @@ Command addMan(CLI::App& app) {
 }
 
 Command addVersion(CLI::App& app, const std::string& version) {
-  return {app.add_subcommand("version", "print the version"), [version] {
+  auto* const command = app.add_subcommand("version", "print the version");
+  command->footer("Example:\n  tessera version");
+  return {command, [version] {
             say(stdout, "{}\n", version);
             return ExitCode::kDone;
           }};

@@ -78,7 +78,7 @@ std::string axesHelp(unsigned columns) {
 std::string inputHelp(unsigned columns) {
   std::string text =
       wrapped("INPUT: a mesh (.obj, .off, .ply, .stl), a scene (.toml), a replay file (.replay), or", columns) +
-      twoColumns("mesh:NAME", "an installed mesh, e.g. mesh:refined_elephant; 'mesh:' alone lists them", columns) +
+      twoColumns("mesh:NAME", "an installed mesh, e.g. mesh:refined_elephant; 'tessera meshes' lists them", columns) +
       twoColumns("generate:NAME?KEY=VALUE&KEY=VALUE",
                  "a generated one, e.g. 'generate:icosphere?level=6', of:", columns);
   for (const GeneratorDoc& doc : generatorDocs())
@@ -86,18 +86,20 @@ std::string inputHelp(unsigned columns) {
   return text;
 }
 
+bool takesValue(const CLI::Option& option) { return option.get_items_expected_max() != 0; }
+
 std::string optionName(const CLI::Option& option) {
   if (option.get_positional()) return option.get_name(true, false);
   std::string name;
   for (const auto& part : option.get_snames()) name += fmt::format("{}-{}", name.empty() ? "" : ", ", part);
   for (const auto& part : option.get_lnames()) name += fmt::format("{}--{}", name.empty() ? "" : ", ", part);
-  if (option.get_type_size() != 0 && !option.get_type_name().empty()) name += " " + option.get_type_name();
+  if (takesValue(option) && !option.get_type_name().empty()) name += " " + option.get_type_name();
   return name;
 }
 
 std::string optionText(const CLI::Option& option) {
   std::string text = option.get_description();
-  if (option.get_type_size() != 0 && !option.get_default_str().empty())
+  if (takesValue(option) && !option.get_default_str().empty())
     text += fmt::format(" (default: {})", option.get_default_str());
   if (option.get_required() && !option.get_positional()) text += " (required)";
   return text;

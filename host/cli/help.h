@@ -20,6 +20,8 @@ std::string twoColumns(std::string_view left, std::string_view text, unsigned co
 std::string axesHelp(unsigned columns);
 std::string inputHelp(unsigned columns);
 
+/// Whether it is more than a flag.
+bool takesValue(const CLI::Option& option);
 /// "--size WxH", "-o, --output FILE", "INPUT".
 std::string optionName(const CLI::Option& option);
 /// What it is, with its default, and whether it has to be there.

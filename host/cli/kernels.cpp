@@ -101,7 +101,7 @@ ExitCode emit(const KernelsOptions& options) {
                        : std::vector<std::string>{emitted.stage, "-", emitted.complaint});
   }
   rows.push_back(writeManifest(folder, manifestOf(scene, variant, plan, target, stages)));
-  say(stdout, "{}", table(rows));
+  if (!options.quiet) say(stdout, "{}", table(rows));
   if (missing == 0) return ExitCode::kDone;
   say(stderr, "{} of {} stages cannot be written for {}: the table says why\n", missing, stages.size(), target.name);
   return ExitCode::kUnsupported;
@@ -122,6 +122,7 @@ ExitCode runKernels(const KernelsOptions& options) {
   KernelCache kernels;
   compileKernels(kernels, plans);
   const KernelCache::Statistics statistics = kernels.statistics();
+  if (options.quiet) return ExitCode::kDone;
   say(stdout, "{} kernels of the default variants are ready in {}, {} of them compiled now\n",
       statistics.hits + statistics.compiled, kernels.folder().string(), statistics.compiled);
   return ExitCode::kDone;

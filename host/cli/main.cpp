@@ -3,19 +3,18 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <new>
 #include <system_error>
+#include <vector>
 
 #include "host/build-info.h"
 #include "host/cli/commands.h"
 #include "host/cli/help.h"
 #include "host/cli/mistake.h"
-#include "host/output-place.h"
 #include "host/terminal.h"
 
 namespace {
@@ -26,6 +25,12 @@ ExitCode complain(ExitCode code, std::string line) {
   std::replace(line.begin(), line.end(), '\n', ' ');
   say(stderr, "tessera: {}\n", line);
   return code;
+}
+
+/// The help or the version that the command line asks for.
+void printRequested(const CLI::App& app, const CLI::ParseError& request) {
+  const bool version = dynamic_cast<const CLI::CallForVersion*>(&request) != nullptr;
+  say(stdout, "{}", version ? std::string(request.what()) + '\n' : app.help());
 }
 
 ExitCode runCommand(int argc, char** argv) {
@@ -44,20 +49,25 @@ ExitCode runCommand(int argc, char** argv) {
       "'tessera help COMMAND' says more. Results go to stdout, messages to stderr.\n"
       "Exit codes: 0 done; 2 bad usage or input; 3 overflow under overflow=error; 4 the device cannot run "
       "this variant; 5 compare or parity found a difference; 130 a signal stopped sweep; 1 anything else.");
-  const std::array commands{
-      cli::addRender(app),   cli::addParity(app),      cli::addCompare(app), cli::addPlan(app),
-      cli::addDevices(app),  cli::addVariants(app),    cli::addKernels(app), cli::addExpand(app),
-      cli::addSweep(app),    cli::addSweepWorker(app), cli::addReport(app),  cli::addCompletion(app),
-      cli::addComplete(app), cli::addMan(app),         cli::addHelp(app),    cli::addVersion(app, version)};
+  const std::array commands{cli::addRender(app),     cli::addParity(app),          cli::addCompare(app),
+                            cli::addPlan(app),       cli::addDevices(app),         cli::addVariants(app),
+                            cli::addMeshes(app),     cli::addKernels(app),         cli::addExpand(app),
+                            cli::addSweep(app),      cli::addSweepWorker(app),     cli::addReport(app),
+                            cli::addCompletion(app), cli::addComplete(app),        cli::addMan(app),
+                            cli::addHelp(app),       cli::addVersion(app, version)};
   if (argc < 2) {
     say(stderr, "{}\n", cli::shortHelp(app));
     return ExitCode::kUsage;
   }
+  const std::vector<std::string> words(argv + 1, argv + argc);
   try {
     app.parse(argc, argv);
+    if (const std::string mistake = cli::mistakeText(app, words); !mistake.empty())
+      return complain(ExitCode::kUsage, mistake);
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error), ExitCode::kDone;  // --help, --version
-    return complain(ExitCode::kUsage, cli::mistakeText(app, error));
+    if (const std::string mistake = cli::mistakeText(app, words, error); !mistake.empty())
+      return complain(ExitCode::kUsage, mistake);
+    return printRequested(app, error), ExitCode::kDone;
   }
   for (const auto& command : commands)
     if (command.app->parsed()) return command.run();
@@ -73,10 +83,7 @@ int main(int argc, char** argv) {
   ExitCode code = ExitCode::kDone;
   try {
     code = runCommand(argc, argv);
-    errno = 0;
-    if (std::fflush(stdout) != 0 || std::ferror(stdout))
-      code = complain(ExitCode::kFailure,
-                      fmt::format("stdout: could not be written{}", errno != 0 ? ": " + causeOf(errno) : ""));
+    flushStdout();
   } catch (const Error& error) {
     code = complain(error.code(), error.what());
   } catch (const std::filesystem::filesystem_error& error) {

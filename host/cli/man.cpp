@@ -74,7 +74,7 @@ std::string manualPage(const CLI::App& app) {
   text += section("INPUTS") +
           paragraphs(
               "INPUT is a mesh (.obj, .off, .ply, .stl), a scene (.toml), a replay file (.replay), or one of these:");
-  text += entry("mesh:NAME", "an installed mesh, such as mesh:refined_elephant; 'mesh:' alone lists them");
+  text += entry("mesh:NAME", "an installed mesh, such as mesh:refined_elephant; 'tessera meshes' lists them");
   for (const GeneratorDoc& doc : generatorDocs())
     text += entry(fmt::format("generate:{}?KEY=VALUE&KEY=VALUE", doc.name), doc.makes + ". " + doc.parameters);
   text += section("AXES") + paragraphs("What --set takes. An axis that is not set is the plan's choice.");

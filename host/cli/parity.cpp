@@ -206,7 +206,7 @@ ExitCode exitCode(const std::vector<Outcome>& outcomes) {
 }
 
 void writeReplayOf(Parity& parity, const std::vector<Outcome>& outcomes, const ParityOptions& options) {
-  std::fflush(stdout);  // what was found, before what may take a while
+  flushStdout();  // what was found, before what may take a while
   std::optional<Parity::Replay> replay;
   try {
     replay = parity.replay(outcomes);
@@ -276,8 +276,7 @@ Command addParity(CLI::App& app) {
   command
       ->add_option("--json", options->json,
                    "add a result row, one line of JSON, for each device and route to FILE's end; - is stdout")
-      ->type_name("FILE")
-      ->check(isNamed);
+      ->type_name("FILE");
   command
       ->add_option(
           "--replay", options->replay,

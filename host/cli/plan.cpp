@@ -7,6 +7,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "host/choice.h"
 #include "host/cli/commands.h"
 #include "host/cli/common.h"
 #include "host/cli/table.h"
@@ -22,7 +23,7 @@ struct PlanOptions : Options {
 
 /// `files`: a user's, by stage; a pass that runs one says so.
 std::string planJson(const Plan& plan, const KernelFiles& files) {
-  nlohmann::ordered_json json{{"plan", nlohmann::ordered_json::array()}, {"variant", plan.resolved.values()}};
+  nlohmann::ordered_json json{{"plan", nlohmann::ordered_json::array()}, {"variant", settable(plan.resolved).values()}};
   for (const auto& entry : plan.entries)
     json["plan"].push_back({{"pass", entry.pass}, {"kept", entry.kept}, {"why", entry.why}});
   for (const auto& [stage, file] : files) json["kernels"][stage] = file.string();
@@ -32,7 +33,7 @@ std::string planJson(const Plan& plan, const KernelFiles& files) {
 std::string planTable(const Plan& plan, const KernelFiles& files) {
   std::vector<std::vector<std::string>> rows{{"pass", "plan", "why"}};
   for (const auto& entry : plan.entries) rows.push_back({entry.pass, entry.kept ? "kept" : "left out", entry.why});
-  std::string text = table(rows) + "\nvariant: " + plan.resolved.text() + '\n';
+  std::string text = table(rows) + "\nvariant: " + settable(plan.resolved).text() + '\n';
   for (const auto& [stage, file] : files) text += fmt::format("kernel of {}: {}\n", stage, file.string());
   return text;
 }
@@ -59,7 +60,11 @@ Command addPlan(CLI::App& app) {
   addKernelFiles(*command, *options);
   addThreads(*command, *options);
   command->add_flag("--json", options->json, "print JSON");
-  command->footer("Example:\n  tessera plan mesh:refined_elephant --set shade=smooth");
+  addQuiet(*command, options->quiet);
+  command->footer(
+      "The line 'variant:' has the value of each axis that says something, set or chosen; --set takes it as it "
+      "stands, in quotes.\n\n"
+      "Example:\n  tessera plan mesh:refined_elephant --set shade=smooth");
   return {command, [options] { return runPlan(*options); }};
 }
 

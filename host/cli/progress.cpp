@@ -30,6 +30,8 @@ Progress::Progress(std::string label, std::size_t total)
 
 void Progress::silence() { silent = true; }
 
+bool Progress::silenced() { return silent; }
+
 Progress::~Progress() {
   watcher_.request_stop();
   if (watcher_.joinable()) watcher_.join();

@@ -20,6 +20,7 @@ class Progress {
   Progress(const Progress&) = delete;
   /// From now on nothing is drawn, by any of them.
   static void silence();
+  static bool silenced();
 
   /// `what` is being done now. `left`: seconds that the rest will take, where the caller knows better than by the share
   /// that is done; counted down until the next call.

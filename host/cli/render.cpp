@@ -156,7 +156,7 @@ Command addRender(CLI::App& app) {
           "-o,--output", options->outputs,
           "image: .png to look at, .exr with exact ids and depths; a pipe or - needs its format, as in png:-; may be "
           "repeated")
-      ->type_name("FILE")
+      ->type_name("IMAGE")
       ->allow_extra_args(false);
   addDevice(*command, *options, false);
   addSettings(*command, *options);
@@ -168,8 +168,7 @@ Command addRender(CLI::App& app) {
   command->add_flag("--error", options->error,
                     "compare the image with the oracle's; always done where an axis is approximate");
   command->add_option("--json", options->json, "add the result row, one line of JSON, to FILE's end; - is stdout")
-      ->type_name("FILE")
-      ->check(isNamed);
+      ->type_name("FILE");
   command->footer(
       "Without -o and --json the frames are rendered and timed, and nothing is written. Times are those of the whole "
       "frame: median, least and greatest of --repeat frames, with a warning where they are too far apart to be "

@@ -17,6 +17,7 @@
 #include "host/compiler-tools.h"
 #include "host/home.h"
 #include "host/row.h"
+#include "host/terminal.h"
 
 namespace tessera::cli {
 namespace {
@@ -84,7 +85,7 @@ ExitCode runReport(const ReportOptions& options) {
   std::vector<char*> arguments;
   for (auto& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
-  std::fflush(stdout);
+  flushStdout();
   if (options.quiet && std::freopen("/dev/null", "w", stdout) == nullptr) fail("/dev/null: could not be opened");
   // This process becomes Python, whose exit code and signals are then its own.
   execvp(arguments[0], arguments.data());
@@ -112,6 +113,7 @@ Command addReport(CLI::App& app) {
   addQuiet(*command, options->quiet);
   command->footer(
       "Examples:\n"
+      "  tessera sweep experiments/tile-size/sweep.toml --quick --out out/tile\n"
       "  tessera report out/tile --export tile.parquet\n"
       "  tessera report experiments/tile-size");
   return {command, [options] { return runReport(*options); }};

@@ -5,16 +5,19 @@
 #include "experiments/harness/worker.h"
 #include "host/cli/commands.h"
 #include "host/cli/common.h"
+#include "host/cli/progress.h"
 
 namespace tessera::cli {
 
 void addChanges(CLI::App& app, harness::Changes& changes) {
   addCount(app, "--rounds", changes.rounds, 1, harness::kMaxRounds, "rounds, in place of the file's");
-  app.add_option("--devices", changes.devices,
-                 "cpu, vulkan, vulkan:N or vulkan:NAME, with commas between, in place of the file's")
-      ->type_name("DEVICE,...")
-      ->delimiter(',')
-      ->allow_extra_args(false);
+  app.add_option_function<std::string>(
+         "--devices",
+         [&changes](const std::string& typed) {
+           if (!typed.empty()) changes.devices = partsOf(typed, "--devices", "cpu,vulkan");  // else it is refused later
+         },
+         "cpu, vulkan, vulkan:N or vulkan:NAME, with commas between, in place of the file's")
+      ->type_name("DEVICE,...");
 }
 
 Command addSweep(CLI::App& app) {
@@ -52,6 +55,7 @@ Command addSweep(CLI::App& app) {
 
 Command addSweepWorker(CLI::App& app) {
   auto* const command = app.add_subcommand("sweep-worker", "")->group("");
+  command->add_flag_callback("-q,--quiet", Progress::silence);
   return {command, [] { return static_cast<ExitCode>(harness::serveWorker()); }};
 }
 

@@ -122,6 +122,7 @@ Command addVariants(CLI::App& app) {
   auto* const command = app.add_subcommand("variants", "list the axes of variation and their values");
   auto* const json = command->add_flag("--json", options->json, "print JSON");
   command->add_flag("--markdown", options->markdown, "print the table of the docs")->excludes(json);
+  command->footer("Example:\n  tessera variants");
   return {command, [options] {
             say(stdout, "{}", options->json ? axesJson() : options->markdown ? axesMarkdown() : axesText());
             return ExitCode::kDone;

@@ -24,6 +24,13 @@ TEST_CASE("Installed meshes are listed and a mistyped one is answered by the nea
   CHECK(close.code == 2);
   CHECK(close.complainsOnce());
   CHECK(says(close.err, "did you mean mesh:refined_elephant?"));
+  const auto far = desk.tessera("render mesh:zzzzzzzz");
+  CHECK(says(far.err, "'tessera meshes' lists the "));
+  const auto listed = desk.tessera("meshes");
+  CHECK(listed.code == 0);
+  CHECK(listed.err.empty());
+  for (const char* const line : {"mesh:refined_elephant\n", "mesh:cube\n", "generate:icosphere\n"})
+    CHECK(says(listed.out, line));
 }
 
 TEST_CASE("A plan takes an attribute and kernels and threads") {

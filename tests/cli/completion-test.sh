@@ -31,6 +31,7 @@ completes 'tessera render --device vul' vulkan vulkan:0
 completes 'tessera render --device vulkan:' 0                # and at the colon
 completes 'tessera render me' mesh:
 completes 'tessera render mesh:refined_' refined_elephant
+completes 'tessera render --error me' mesh:                  # a flag is followed by no value
 completes 'tessera render generate:ico' icosphere
 completes "tessera render 'generate:layers?order=" 'generate:layers?order=far-to-near'  # but not within quotes
 completes 'tessera render --kernel sha' shade=
@@ -39,6 +40,17 @@ completes 'tessera render -o ' mine.comp folder
 completes 'tessera render --repeat 3 -o x.png fo' folder
 completes 'tessera render mine.comp ' '!mine.comp'           # one input is enough
 completes 'tessera sweep a.toml --out ' folder '!mine.comp'
+completes 'tessera compare a.exr b.exr --tolerance ' depth= values= colour= '!mine.comp'
+completes 'tessera compare a.exr b.exr --at-most=de' depth=
+completes 'tessera compare a.exr b.exr --tolerance depth=' '!mine.comp' '!depth='
+completes 'tessera compare a.exr b.exr --allow ' '!mine.comp'
+completes "tessera render mine.comp -o png:$PWD/mi" "$PWD/mine.comp"
+completes "tessera render mine.comp -o exr:" mine.comp folder
+completes "tessera render mine.comp --output=png:mi" mine.comp
+completes "tessera render mine.comp -o 'png:mi" png:mine.comp  # quotes keep the word whole
+completes "tessera render mine.comp --json png:mi" '!mine.comp'
+completes 'tessera report folder --out ' folder '!mine.comp'
+completes 'tessera mes' meshes
 completes 'tessera kernels --emit w' wgsl
 completes 'tessera kernels --emit wgsl ' folder '!mine.comp'
 completes 'tessera completion ' bash zsh fish

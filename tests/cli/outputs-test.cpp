@@ -93,6 +93,40 @@ TEST_CASE("What killed runs left is cleared and a reader that goes is an error")
   CHECK(desk.read("said") == "tessera: stdout: could not be written: Broken pipe\n");
 }
 
+TEST_CASE("What stdout cannot take is an error with its cause whatever was asked") {
+  Desk desk;
+  desk.write("two.obj", tessera::test::twoTriangles());
+  desk.write("tile.toml",
+             "title = \"T\"\nquestion = \"Q?\"\nsizes = [16]\n[scenes]\nball = \"generate:icosphere?level=1\"\n"
+             "[axes]\ntile = [8, 16]\n");
+  for (const char* const arguments :
+       {"--version", "--help", "version", "help render", "render --help", "variants", "meshes", "man",
+        "completion bash", "plan two.obj", "expand tile.toml --no-estimate", "render two.obj --size 16"}) {
+    desk.tessera(std::string(arguments) + " >/dev/full 2>said; echo $? >code #");
+    INFO("tessera " << arguments);
+    CHECK(desk.read("code") == "1\n");
+    CHECK(desk.read("said") == "tessera: stdout: could not be written: No space left on device\n");
+  }
+}
+
+TEST_CASE("A C++ compiler that is none is named with what it did") {
+  Desk desk;
+  desk.write("two.obj", tessera::test::twoTriangles());
+  desk.write("talks", "#!/bin/sh\necho 'no such option' >&2\nexit 3\n");
+  std::filesystem::permissions(desk.path() / "talks", std::filesystem::perms(0755));
+  for (const auto& [compiler, why] : std::initializer_list<std::pair<const char*, const char*>>{
+           {"false", "/false -march=native -dM -E -x c++ /dev/null' ended with exit status 1 and printed nothing"},
+           {"true", "/true -march=native -dM -E -x c++ /dev/null' names no macro __cplusplus"},
+           {"./talks", "ended with exit status 3 and printed: no such option"}}) {
+    const auto outcome = desk.tessera(kRender + "-o a.png", std::string("TESSERA_CXX=") + compiler);
+    INFO(outcome.err);
+    CHECK(outcome.code == 2);
+    CHECK(outcome.complainsOnce());
+    CHECK(outcome.err.find(std::string("TESSERA_CXX=") + compiler + ": ") != std::string::npos);
+    CHECK(outcome.err.find(why) != std::string::npos);
+  }
+}
+
 TEST_CASE("Folders that are full or missing or of others are named") {
   Desk desk;
   desk.write("two.obj", tessera::test::twoTriangles());

@@ -108,6 +108,7 @@ TEST_CASE("compare takes tolerances and a share of the pixels and says what is b
   CHECK(compared("--allow 40").code == 5);
   CHECK(compared(near + "--allow 1 --at-most colour=0.3").code == 0);
   CHECK(compared(near + "--allow 1 --at-most colour=0.2").code == 5);
+  CHECK(compared(near + "--allow 1 --at-most colour=0").code == 5);
   CHECK(compared("--tolerance colour=1 --tolerance depth=1").code == 0);
   const auto said = compared(near + "--allow 1");
   CHECK_THAT(said.text, Contains("equal within the tolerances") && Contains("beyond tolerance") && Contains(" 41") &&

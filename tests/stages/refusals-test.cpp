@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "datasets/input.h"
+#include "host/choice.h"
 #include "host/error.h"
 #include "host/plan.h"
 
@@ -140,6 +141,40 @@ TEST_CASE("A device with little group memory gets a tile that fits", "[refusals]
   DeviceInfo device = vulkan();
   device.maxGroupBytes = 16384;
   CHECK(makePlan(sphere(), {}, device).resolved.get("tile") == "32");
+}
+
+TEST_CASE("What a plan chose can be set and chooses the same again", "[refusals]") {
+  DeviceInfo every = cpu(), gpu = vulkan();
+  for (DeviceInfo* const device : {&every, &gpu}) device->int64 = device->float64 = device->atomicMin64 = true;
+  std::vector<std::pair<std::string, std::string>> settings;
+  for (const Axis& axis : axes()) {
+    for (const AxisValue& value : axis.values) settings.emplace_back(axis.name, value.name);
+    if (axis.values.empty()) settings.emplace_back(axis.name, std::to_string(axis.least));
+  }
+  const Scene scene = sphere();
+  std::size_t planned = 0;
+  for (const DeviceInfo& device : {every, gpu})
+    for (const auto& [axis, value] : settings)
+      for (const auto& [otherAxis, otherValue] : settings) {
+        Variant asked;
+        asked.set(axis, value);
+        if (axis != otherAxis) asked.set(otherAxis, otherValue);
+        Plan plan;
+        try {
+          plan = makePlan(scene, asked, device);
+        } catch (const Error&) {
+          continue;  // refused, as it may be
+        }
+        ++planned;
+        const Variant chosen = settable(plan.resolved);
+        INFO("asked " << asked.text() << "\nchosen " << chosen.text());
+        Plan again;
+        REQUIRE_NOTHROW(again = makePlan(scene, chosen, device));
+        REQUIRE(settable(again.resolved).text() == chosen.text());
+        REQUIRE(again.resolved.get("binning") == plan.resolved.get("binning"));
+        for (const auto& name : {axis, otherAxis}) REQUIRE(chosen.get(name) == asked.get(name));  // nothing set is lost
+      }
+  CHECK(planned > settings.size() * settings.size());
 }
 
 TEST_CASE("Sizes of rasters are checked", "[refusals]") {

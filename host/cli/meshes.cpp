@@ -1,0 +1,23 @@
+// tessera meshes: what INPUT may name beside files, a line each.
+#include "datasets/input.h"
+#include "datasets/installed-mesh.h"
+#include "host/cli/commands.h"
+#include "host/terminal.h"
+
+namespace tessera::cli {
+
+Command addMeshes(CLI::App& app) {
+  auto* const command =
+      app.add_subcommand("meshes", "list the installed meshes and the generators that INPUT may name");
+  command->footer("Example:\n  tessera meshes");
+  return {command, [] {
+            const auto installed = installedMeshes();
+            for (const std::string& name : installed) say(stdout, "{}{}\n", kInstalledMesh, name);
+            for (const GeneratorDoc& generator : generatorDocs()) say(stdout, "generate:{}\n", generator.name);
+            if (installed.empty())
+              say(stderr, "no mesh is installed: Debian's libcgal-demo, with its doc folder, has some\n");
+            return ExitCode::kDone;
+          }};
+}
+
+}  // namespace tessera::cli
