@@ -135,6 +135,8 @@ ToolInfo chooseSlangc(ToolMemory& memory, const fs::path& pinned) {
       return "";
     } catch (const WriteError&) {
       throw;
+    } catch (const ShortageError&) {
+      throw;
     } catch (const Error& error) {
       return error.what();
     }
@@ -196,6 +198,8 @@ CxxInfo resolveCxx(ToolMemory& memory) {
       std::string macros = run(question);
       if (macros.find("#define __cplusplus ") != std::string::npos) return macros;
       why = fmt::format("'{}' names no macro __cplusplus", fmt::join(question, " "));
+    } catch (const ShortageError&) {
+      throw;
     } catch (const Error& error) {
       why = error.what();
     }

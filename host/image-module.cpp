@@ -5,10 +5,13 @@
 
 #include <chrono>
 #include <future>
+#include <latch>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <system_error>
+#include <thread>
+#include <vector>
 
 #include "host/error.h"
 #include "host/image.h"
@@ -24,10 +27,29 @@ struct Loaded {
   double milliseconds = 0;
 };
 
+// OpenImageIO and libraries that it stands on make threads while they are loaded, and a thread that they cannot make ends
+// the process. So as many threads as they make at most are made here first. Text: why they cannot be.
+std::string lackOfThreads() {
+  constexpr unsigned kFixed = 8;  // log4cplus' pool of 4, and some room
+  const unsigned wanted = kFixed + 2 * std::thread::hardware_concurrency();  // those of OpenBLAS, OpenImageIO, OpenEXR
+  std::latch all(1);
+  std::vector<std::jthread> threads;
+  std::string why;
+  try {
+    while (threads.size() < wanted) threads.emplace_back([&all] { all.wait(); });
+  } catch (const std::system_error& error) {
+    why = fmt::format("OpenImageIO and its libraries make up to {} threads, and thread {} cannot be made: {}", wanted,
+                      threads.size() + 1, error.code().message());
+  }
+  all.count_down();
+  return why;
+}
+
 // The loader looks in the folders that were linked into the program (cmake/install.cmake), and in LD_LIBRARY_PATH.
 Loaded load() {
   const auto start = std::chrono::steady_clock::now();
   Loaded result;
+  if (result.why = lackOfThreads(); !result.why.empty()) return result;
   void* const library = dlopen(kFile, RTLD_LAZY | RTLD_LOCAL);
   void* const entry = library ? dlsym(library, imageio::kEntry) : nullptr;
   if (entry) {

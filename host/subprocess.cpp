@@ -34,12 +34,19 @@ std::vector<char*> childEnvironment(std::string& temporary) {
   return variables;
 }
 
+[[noreturn]] void failToRun(const std::string& program, int error) {
+  const std::string line = fmt::format("{}: cannot be run: {}", program, std::strerror(error));
+  if (error == EAGAIN || error == ENOMEM || error == EMFILE || error == ENFILE)
+    throw ShortageError(ExitCode::kFailure, line);
+  fail(line);
+}
+
 }  // namespace
 
 ProcessResult runProcess(const std::vector<std::string>& arguments, const std::filesystem::path& temporary) {
   // Close-on-exec, or a child started by another thread would hold our pipe open.
   int ends[2];
-  if (pipe2(ends, O_CLOEXEC) != 0) fail(fmt::format("{}: no pipe to it: {}", arguments[0], std::strerror(errno)));
+  if (pipe2(ends, O_CLOEXEC) != 0) failToRun(arguments[0], errno);
 
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
@@ -65,7 +72,7 @@ ProcessResult runProcess(const std::vector<std::string>& arguments, const std::f
   close(ends[1]);
   if (error != 0) {
     close(ends[0]);
-    fail(fmt::format("{}: cannot be run: {}", arguments[0], std::strerror(error)));
+    failToRun(arguments[0], error);
   }
 
   ProcessResult result;

@@ -6,12 +6,20 @@
 #include <string_view>
 #include <vector>
 
+#include "host/error.h"
+
 namespace tessera {
 
 struct ProcessResult {
   int status = 0;      ///< exit status; 128 + the signal's number if one ended it
   std::string output;  ///< stdout and stderr together, in the C locale
   bool ok() const { return status == 0; }
+};
+
+/// The system has no room for another process, pipe or file now; the program that was to run is not at fault.
+class ShortageError : public Error {
+ public:
+  using Error::Error;
 };
 
 /// Runs `arguments[0]` (a path) and waits for it; its temporary files go into `temporary`, if that is said. Throws

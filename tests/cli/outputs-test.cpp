@@ -162,4 +162,21 @@ TEST_CASE("A thread that cannot be made is an error and no abort") {
   INFO(one.err);
   CHECK(one.code == 0);
   CHECK(desk.names() == std::vector<std::string>{"row.json", "two.obj"});
+  // OpenImageIO's libraries would end the process.
+  const auto picture = desk.tessera(kRender + "--threads 1 -o a.png", none);
+  INFO(picture.err);
+  CHECK(picture.code == 1);
+  CHECK(picture.err.find("thread 1 cannot be made: Resource temporarily unavailable\n") != std::string::npos);
+  CHECK(desk.names() == std::vector<std::string>{"row.json", "two.obj"});
+}
+
+TEST_CASE("A process that cannot be made is no fault of the compiler") {
+  Desk desk;
+  desk.write("two.obj", tessera::test::twoTriangles());
+  const auto full =
+      desk.tessera(kRender + "--threads 1", "NO_PROCESSES=1 TESSERA_CACHE=cache LD_PRELOAD=" TESSERA_NO_THREADS);
+  INFO(full.err);
+  CHECK(full.code == 1);
+  CHECK(full.complainsOnce());
+  CHECK(full.err.find("slangc: cannot be run: Resource temporarily unavailable\n") != std::string::npos);
 }
