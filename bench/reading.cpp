@@ -10,11 +10,11 @@
 #include <fstream>
 #include <iterator>
 
-#include "datasets/input.h"
+#include <tessera/input.h>
 #include "datasets/mesh-formats.h"
 #include "datasets/normals.h"
 #include "datasets/text.h"
-#include "host/files.h"
+#include "host/support/files.h"
 
 namespace tessera {
 namespace {

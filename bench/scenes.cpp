@@ -7,9 +7,9 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "datasets/input.h"
+#include <tessera/input.h>
 #include "host/build-info.h"
-#include "host/error.h"
+#include <tessera/error.h>
 
 namespace tessera::bench {
 

@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "host/device.h"
-#include "host/kernel-cache.h"
-#include "host/scene.h"
+#include <tessera/device.h>
+#include <tessera/kernel-cache.h>
+#include <tessera/scene.h>
 
 namespace tessera::bench {
 

@@ -8,8 +8,8 @@
 
 #include "bench/scenes.h"
 #include "bench/suite.h"
-#include "datasets/input.h"
-#include "host/reference.h"
+#include <tessera/input.h>
+#include <tessera/oracle.h>
 
 namespace {
 

@@ -6,10 +6,10 @@
 #include <string_view>
 
 #include "bench/scenes.h"
-#include "host/cpu/cpu-device.h"
-#include "host/error.h"
-#include "host/terminal.h"
-#include "host/vulkan/vulkan-device.h"
+#include <tessera/cpu-device.h>
+#include <tessera/error.h>
+#include "host/support/terminal.h"
+#include <tessera/vulkan-device.h>
 
 namespace tessera::bench {
 namespace {

@@ -6,8 +6,8 @@
 #include <functional>
 #include <memory>
 
-#include "host/kernel-cache.h"
-#include "host/rasterizer.h"
+#include <tessera/kernel-cache.h>
+#include <tessera/rasterizer.h>
 
 namespace tessera::bench {
 

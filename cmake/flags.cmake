@@ -3,7 +3,7 @@ set(TESSERA_SANITIZE "" CACHE STRING "sanitizers for the host code and the CPU k
 option(TESSERA_VALIDATION "Vulkan devices of the command line load the validation layer" OFF)
 
 add_library(tessera_common INTERFACE)
-target_include_directories(tessera_common INTERFACE ${PROJECT_SOURCE_DIR})
+target_include_directories(tessera_common INTERFACE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/host/include)
 target_compile_options(tessera_common INTERFACE -Wall -Wextra -Werror)
 if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   target_compile_options(tessera_common INTERFACE -Wno-restrict)  # GCC bug 105651: false positives inside std::string

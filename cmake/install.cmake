@@ -1,15 +1,14 @@
-# cmake --install: headers as in the source tree under include/tessera, libtessera.a, the kernels' Slang sources, the command, the pinned
+# cmake --install: the public headers as <tessera/NAME.h>, libtessera.a, the kernels' Slang sources, the command, the pinned
 # slangc, what makes reports, and a package for find_package(tessera), which gives tessera::tessera. Nothing that is installed needs the
-# clone, and the prefix can be moved: host/home.cpp finds the files from the program.
+# clone, and the prefix can be moved: host/support/home.cpp finds the files from the program.
 include(CMakePackageConfigHelpers)
 set(packageFolder ${CMAKE_INSTALL_LIBDIR}/cmake/tessera)
 set(slangFolder ${TESSERA_INSTALLED_DATA}/slang)
 
-target_sources(tessera PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} FILES
-  host/counters.h host/cpu/cpu-device.h host/device.h host/error.h host/framebuffer.h host/image.h host/kernel-cache.h host/kernel.h host/plan.h
-  host/probe.h host/rasterizer.h host/reference.h host/scene.h host/variant.h host/vulkan/vulkan-device.h datasets/input.h)
+file(GLOB publicHeaders CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/host/include/tessera/*.h)
+target_sources(tessera PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR}/host/include FILES ${publicHeaders})
 
-install(TARGETS tessera EXPORT tessera FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tessera)
+install(TARGETS tessera EXPORT tessera FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(TARGETS tessera-cli)
 # What reads and writes images is loaded when it is needed, from beside the libraries, by the command and by programs that link the
 # library.

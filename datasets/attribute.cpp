@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "host/error.h"
-#include "host/suggest.h"
+#include <tessera/error.h>
+#include "host/support/suggest.h"
 
 namespace tessera {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "datasets/input.h"
+#include <tessera/input.h>
 
 namespace tessera {
 

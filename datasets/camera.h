@@ -2,7 +2,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "datasets/input.h"
+#include <tessera/input.h>
 
 namespace tessera {
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "host/scene.h"
+#include <tessera/scene.h>
 
 namespace tessera {
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "datasets/input.h"
+#include <tessera/input.h>
 
 namespace tessera {
 

@@ -6,8 +6,8 @@
 
 #include "datasets/generators.h"
 #include "datasets/text.h"
-#include "host/error.h"
-#include "host/suggest.h"
+#include <tessera/error.h>
+#include "host/support/suggest.h"
 
 namespace tessera {
 namespace {

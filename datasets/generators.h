@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "datasets/input.h"
+#include <tessera/input.h>
 
 namespace tessera {
 

@@ -1,4 +1,4 @@
-#include "datasets/input.h"
+#include <tessera/input.h>
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include "datasets/placing.h"
 #include "datasets/scene-file.h"
 #include "datasets/text.h"
-#include "host/error.h"
+#include <tessera/error.h>
 
 namespace tessera {
 namespace {

@@ -7,12 +7,12 @@
 #include <system_error>
 
 #include "datasets/text.h"
-#include "host/compiler-tools.h"
-#include "host/error.h"
-#include "host/files.h"
-#include "host/own-files.h"
-#include "host/subprocess.h"
-#include "host/suggest.h"
+#include "host/kernels/compiler-tools.h"
+#include <tessera/error.h>
+#include "host/support/files.h"
+#include "host/support/own-files.h"
+#include "host/support/subprocess.h"
+#include "host/support/suggest.h"
 
 namespace tessera {
 

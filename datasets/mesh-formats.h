@@ -2,7 +2,7 @@
 // vector for a normal that the file does not give.
 #pragma once
 
-#include "datasets/input.h"
+#include <tessera/input.h>
 #include "datasets/scanner.h"
 #include "datasets/text.h"
 

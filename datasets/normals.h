@@ -1,6 +1,6 @@
 #pragma once
 
-#include "datasets/input.h"
+#include <tessera/input.h>
 
 namespace tessera {
 

@@ -11,7 +11,7 @@
 #include "datasets/faces.h"
 #include "datasets/mesh-formats.h"
 #include "datasets/text.h"
-#include "host/error.h"
+#include <tessera/error.h>
 
 namespace tessera {
 namespace {

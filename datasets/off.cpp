@@ -7,7 +7,7 @@
 #include "datasets/huge-pages.h"
 #include "datasets/mesh-formats.h"
 #include "datasets/text.h"
-#include "host/error.h"
+#include <tessera/error.h>
 
 namespace tessera {
 namespace {

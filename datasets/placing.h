@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "datasets/input.h"
-#include "host/matrix.h"
+#include <tessera/input.h>
+#include "host/support/matrix.h"
 
 namespace tessera {
 

@@ -14,7 +14,7 @@
 
 #include "datasets/ply-header.h"
 #include "datasets/text.h"
-#include "host/error.h"
+#include <tessera/error.h>
 
 namespace tessera {
 

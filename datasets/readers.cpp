@@ -4,7 +4,7 @@
 #include "datasets/mesh-formats.h"
 #include "datasets/normals.h"
 #include "datasets/text.h"
-#include "host/error.h"
+#include <tessera/error.h>
 
 namespace tessera {
 

@@ -15,18 +15,18 @@
 #include <charconv>
 #include <iterator>
 
-#include "datasets/input.h"
+#include <tessera/input.h>
 #include "datasets/scanner.h"
 #include "datasets/text.h"
-#include "host/error.h"
-#include "host/files.h"
+#include <tessera/error.h>
+#include "host/support/files.h"
 
 namespace tessera {
 namespace {
 
 constexpr std::string_view kFirst = "tessera-replay";
 
-/// The contract's transform (see host/rasterizer.h).
+/// The contract's transform (see host/include/tessera/rasterizer.h).
 glm::vec4 transform(const Matrix& m, const glm::vec3& p) {
   const auto row = [&](std::size_t r) { return ((m[r] * p.x + m[r + 1] * p.y) + m[r + 2] * p.z) + m[r + 3]; };
   return {row(0), row(4), row(8), row(12)};

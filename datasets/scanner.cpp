@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "datasets/text.h"
-#include "host/error.h"
+#include <tessera/error.h>
 
 namespace tessera {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "datasets/input.h"
+#include <tessera/input.h>
 #include "datasets/numbers.h"
 
 namespace tessera {

@@ -12,7 +12,7 @@
 #include "datasets/placing.h"
 #include "datasets/text.h"
 #include "datasets/toml-table.h"
-#include "host/error.h"
+#include <tessera/error.h>
 
 namespace tessera {
 namespace {

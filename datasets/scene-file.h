@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "datasets/input.h"
+#include <tessera/input.h>
 
 namespace tessera {
 

@@ -6,8 +6,8 @@
 #include <memory>
 #include <span>
 
-#include "datasets/input.h"
-#include "host/error.h"
+#include <tessera/input.h>
+#include <tessera/error.h>
 
 namespace tessera {
 namespace {

@@ -9,7 +9,7 @@
 #include "datasets/bits-table.h"
 #include "datasets/mesh-formats.h"
 #include "datasets/text.h"
-#include "host/error.h"
+#include <tessera/error.h>
 
 namespace tessera {
 namespace {

@@ -11,7 +11,7 @@
 #include <new>
 
 #include "datasets/huge-pages.h"
-#include "host/error.h"
+#include <tessera/error.h>
 
 namespace tessera {
 

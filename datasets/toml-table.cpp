@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "datasets/text.h"
-#include "host/error.h"
-#include "host/suggest.h"
+#include <tessera/error.h>
+#include "host/support/suggest.h"
 
 namespace tessera {
 namespace {

@@ -10,11 +10,11 @@
 
 #include "bench/compare/measure.h"
 #include "bench/draw-baseline/draw.h"
-#include "host/cpu/cpu-device.h"
-#include "host/error.h"
-#include "host/files.h"
-#include "host/row.h"
-#include "host/terminal.h"
+#include <tessera/cpu-device.h>
+#include <tessera/error.h>
+#include "host/support/files.h"
+#include "host/measure/row.h"
+#include "host/support/terminal.h"
 
 namespace {
 

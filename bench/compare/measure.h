@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "bench/scenes.h"
-#include "host/image.h"
-#include "host/rasterizer.h"
+#include <tessera/image.h>
+#include <tessera/rasterizer.h>
 
 namespace tessera::bench {
 

@@ -5,9 +5,9 @@
 #include <sstream>
 
 #include "bench/compare/measure.h"
-#include "host/cpu/cpu-device.h"
-#include "host/error.h"
-#include "host/subprocess.h"
+#include <tessera/cpu-device.h>
+#include <tessera/error.h>
+#include "host/support/subprocess.h"
 
 namespace tessera::bench {
 namespace {

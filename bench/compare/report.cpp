@@ -5,7 +5,7 @@
 
 #include "bench/compare/measure.h"
 #include "host/cli/table.h"
-#include "host/row.h"
+#include "host/measure/row.h"
 
 namespace tessera::bench {
 namespace {

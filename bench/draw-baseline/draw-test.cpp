@@ -5,8 +5,8 @@
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "host/error.h"
-#include "host/reference.h"
+#include <tessera/error.h>
+#include <tessera/oracle.h>
 
 using namespace tessera;
 

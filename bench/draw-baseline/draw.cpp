@@ -9,8 +9,8 @@
 
 #include "draw-frag.h"  // from draw.frag and draw.vert, by glslangValidator
 #include "draw-vert.h"
-#include "host/reference.h"
-#include "host/vulkan/memory.h"
+#include <tessera/oracle.h>
+#include "host/devices/vulkan/memory.h"
 
 namespace tessera {
 namespace {

@@ -7,8 +7,8 @@
 #include <memory>
 #include <string>
 
-#include "host/framebuffer.h"
-#include "host/scene.h"
+#include <tessera/framebuffer.h>
+#include <tessera/scene.h>
 
 namespace tessera {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <map>
 
-#include "host/error.h"
+#include <tessera/error.h>
 
 namespace tessera::bench {
 namespace {

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "host/rasterizer.h"
-#include "host/row.h"
+#include <tessera/rasterizer.h>
+#include "host/measure/row.h"
 
 namespace tessera::bench {
 

@@ -5,7 +5,7 @@
 
 #include "bench/variants/cells.h"
 #include "host/cli/table.h"
-#include "host/stages.h"
+#include "host/plan/stages.h"
 
 namespace tessera::bench {
 namespace {

@@ -12,11 +12,11 @@
 #include "bench/scenes.h"
 #include "bench/variants/cells.h"
 #include "host/cli/progress.h"
-#include "host/cpu/cpu-device.h"
-#include "host/error.h"
-#include "host/files.h"
-#include "host/stages.h"
-#include "host/terminal.h"
+#include <tessera/cpu-device.h>
+#include <tessera/error.h>
+#include "host/support/files.h"
+#include "host/plan/stages.h"
+#include "host/support/terminal.h"
 
 namespace {
 

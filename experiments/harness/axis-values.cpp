@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "datasets/text.h"
-#include "host/error.h"
-#include "host/suggest.h"
+#include <tessera/error.h>
+#include "host/support/suggest.h"
 
 namespace tessera::harness {
 namespace {

@@ -12,10 +12,10 @@
 #include "host/cli/probe-text.h"
 #include "host/cli/render-error.h"
 #include "host/cli/table.h"
-#include "host/comparison.h"
-#include "host/image-facts.h"
-#include "host/probe.h"
-#include "host/stages.h"
+#include "host/images/comparison.h"
+#include "host/measure/image-facts.h"
+#include <tessera/probe.h>
+#include "host/plan/stages.h"
 
 namespace tessera::harness {
 namespace {

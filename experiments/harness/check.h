@@ -8,9 +8,9 @@
 
 #include "experiments/harness/request.h"
 #include "host/cli/parity-oracle.h"
-#include "host/kernel-cache.h"
-#include "host/rasterizer.h"
-#include "host/row.h"
+#include <tessera/kernel-cache.h>
+#include <tessera/rasterizer.h>
+#include "host/measure/row.h"
 
 namespace tessera::harness {
 

@@ -8,15 +8,15 @@
 #include <set>
 #include <tuple>
 
-#include "datasets/input.h"
+#include <tessera/input.h>
 #include "host/cli/common.h"
 #include "host/cli/kernel-check.h"
 #include "host/cli/measure.h"
 #include "host/cli/progress.h"
-#include "host/error.h"
-#include "host/oracle-image.h"
-#include "host/rasterizer.h"
-#include "host/reference.h"
+#include <tessera/error.h>
+#include "host/oracle/oracle-image.h"
+#include <tessera/rasterizer.h>
+#include <tessera/oracle.h>
 
 namespace tessera::harness {
 namespace {

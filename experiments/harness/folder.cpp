@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include "experiments/harness/rows.h"
-#include "host/error.h"
-#include "host/files.h"
-#include "host/row.h"
+#include <tessera/error.h>
+#include "host/support/files.h"
+#include "host/measure/row.h"
 
 namespace tessera::harness {
 namespace {

@@ -16,9 +16,9 @@
 #include "datasets/text.h"
 #include "experiments/harness/fields.h"
 #include "experiments/harness/row-schema.h"
-#include "host/error.h"
-#include "host/files.h"
-#include "host/row.h"
+#include <tessera/error.h>
+#include "host/support/files.h"
+#include "host/measure/row.h"
 
 namespace tessera::harness {
 namespace {

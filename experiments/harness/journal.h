@@ -19,7 +19,7 @@
 #include <vector>
 
 #include "experiments/harness/request.h"
-#include "host/rasterizer.h"
+#include <tessera/rasterizer.h>
 
 namespace tessera::harness {
 

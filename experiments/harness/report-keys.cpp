@@ -8,15 +8,15 @@
 
 #include "datasets/text.h"
 #include "experiments/harness/axis-values.h"
-#include "host/counters.h"
-#include "host/suggest.h"
+#include <tessera/counters.h>
+#include "host/support/suggest.h"
 
 namespace tessera::harness {
 namespace {
 
 using Names = std::vector<std::string>;
 
-/// Of a row's `error` and `truth_error`, as host/row.cpp writes them.
+/// Of a row's `error` and `truth_error`, as host/measure/row.cpp writes them.
 const Names kErrorFields{"pixels",
                          "coverage_mismatch",
                          "id_mismatch",

@@ -8,9 +8,9 @@
 #include <tuple>
 
 #include "experiments/harness/fields.h"
-#include "host/error.h"
-#include "host/files.h"
-#include "host/row.h"
+#include <tessera/error.h>
+#include "host/support/files.h"
+#include "host/measure/row.h"
 
 namespace tessera::harness {
 namespace {

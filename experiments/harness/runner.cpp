@@ -9,7 +9,7 @@
 #include <memory>
 #include <set>
 
-#include "datasets/input.h"
+#include <tessera/input.h>
 #include "datasets/text.h"
 #include "experiments/harness/cells.h"
 #include "experiments/harness/fields.h"
@@ -20,11 +20,11 @@
 #include "experiments/harness/summary.h"
 #include "experiments/harness/worker-process.h"
 #include "host/cli/progress.h"
-#include "host/error.h"
-#include "host/files.h"
-#include "host/row.h"
-#include "host/suggest.h"
-#include "host/terminal.h"
+#include <tessera/error.h>
+#include "host/support/files.h"
+#include "host/measure/row.h"
+#include "host/support/suggest.h"
+#include "host/support/terminal.h"
 
 namespace tessera::harness {
 namespace {

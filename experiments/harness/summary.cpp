@@ -9,7 +9,7 @@
 #include "experiments/harness/fields.h"
 #include "experiments/harness/rows.h"
 #include "host/cli/table.h"
-#include "host/row.h"
+#include "host/measure/row.h"
 
 namespace tessera::harness {
 namespace {

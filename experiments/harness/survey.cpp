@@ -5,13 +5,13 @@
 #include <map>
 #include <tuple>
 
-#include "datasets/input.h"
+#include <tessera/input.h>
 #include "host/cli/common.h"
 #include "host/cli/progress.h"
-#include "host/error.h"
-#include "host/oracle-image.h"
-#include "host/plan.h"
-#include "host/stages.h"
+#include <tessera/error.h>
+#include "host/oracle/oracle-image.h"
+#include <tessera/plan.h>
+#include "host/plan/stages.h"
 
 namespace tessera::harness {
 namespace {

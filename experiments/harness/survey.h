@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "experiments/harness/cells.h"
-#include "host/device.h"
-#include "host/kernel-cache.h"
+#include <tessera/device.h>
+#include <tessera/kernel-cache.h>
 
 namespace tessera::harness {
 

@@ -15,10 +15,10 @@
 #include "datasets/toml-table.h"
 #include "experiments/harness/axis-values.h"
 #include "experiments/harness/report-keys.h"
-#include "host/error.h"
-#include "host/stages.h"
-#include "host/suggest.h"
-#include "host/user-kernel.h"
+#include <tessera/error.h>
+#include "host/plan/stages.h"
+#include "host/support/suggest.h"
+#include "host/kernels/user-kernel.h"
 
 namespace tessera::harness {
 namespace {

@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include "datasets/input.h"
-#include "host/kernel-cache.h"
-#include "host/variant.h"
+#include <tessera/input.h>
+#include <tessera/kernel-cache.h>
+#include <tessera/variant.h>
 
 namespace tessera::harness {
 

@@ -6,7 +6,7 @@
 #include <limits>
 #include <system_error>
 
-#include "host/error.h"
+#include <tessera/error.h>
 
 namespace tessera::harness {
 namespace {

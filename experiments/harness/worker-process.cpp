@@ -14,7 +14,7 @@
 
 #include "experiments/harness/fields.h"
 #include "host/cli/progress.h"
-#include "host/error.h"
+#include <tessera/error.h>
 
 extern char** environ;
 

@@ -20,7 +20,7 @@
 #include "experiments/harness/watchdog.h"
 #include "host/cli/common.h"
 #include "host/cli/measure.h"
-#include "host/stages.h"
+#include "host/plan/stages.h"
 
 namespace tessera::harness {
 namespace {

@@ -24,7 +24,7 @@ def lock(folder):
 
 
 def clearTemporaries(parent, stem):
-  """Removes what killed runs left, which nobody holds, as host/temporary.cpp does."""
+  """Removes what killed runs left, which nobody holds, as host/support/temporary.cpp does."""
   for entry in list(os.scandir(parent)):
     if re.fullmatch(re.escape(stem) + r"\.\d+-[a-z0-9_]+\.tmp", entry.name) and entry.is_dir(follow_symlinks=False):
       descriptor = lock(entry.path)

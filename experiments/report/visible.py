@@ -13,7 +13,7 @@ def escaped(found):
 
 
 def visible(text):
-  """As host/terminal.cpp has it: an escape is "\\u001b"."""
+  """As host/support/terminal.cpp has it: an escape is "\\u001b"."""
   return kObeyed.sub(escaped, text)
 
 

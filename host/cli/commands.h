@@ -6,7 +6,7 @@
 #include <string>
 
 #include "experiments/harness/sweep-file.h"
-#include "host/error.h"
+#include <tessera/error.h>
 
 namespace tessera::cli {
 

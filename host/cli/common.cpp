@@ -12,17 +12,17 @@
 #include <sstream>
 
 #include "datasets/input-files.h"
-#include "datasets/input.h"
+#include <tessera/input.h>
 #include "datasets/text.h"
 #include "host/cli/progress.h"
-#include "host/cpu/cpu-device.h"
-#include "host/error.h"
-#include "host/files.h"
-#include "host/stages.h"
-#include "host/suggest.h"
-#include "host/terminal.h"
-#include "host/user-kernel.h"
-#include "host/vulkan/vulkan-device.h"
+#include <tessera/cpu-device.h>
+#include <tessera/error.h>
+#include "host/support/files.h"
+#include "host/plan/stages.h"
+#include "host/support/suggest.h"
+#include "host/support/terminal.h"
+#include "host/kernels/user-kernel.h"
+#include <tessera/vulkan-device.h>
 
 namespace tessera::cli {
 namespace {

@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "datasets/input.h"
-#include "host/device.h"
-#include "host/kernel-cache.h"
-#include "host/scene.h"
-#include "host/variant.h"
+#include <tessera/input.h>
+#include <tessera/device.h>
+#include <tessera/kernel-cache.h>
+#include <tessera/scene.h>
+#include <tessera/variant.h>
 
 namespace tessera::cli {
 

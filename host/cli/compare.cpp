@@ -18,10 +18,10 @@
 #include "host/cli/common.h"
 #include "host/cli/difference.h"
 #include "host/cli/table.h"
-#include "host/comparison.h"
-#include "host/files.h"
-#include "host/image-facts.h"
-#include "host/terminal.h"
+#include "host/images/comparison.h"
+#include "host/support/files.h"
+#include "host/measure/image-facts.h"
+#include "host/support/terminal.h"
 
 namespace tessera::cli {
 namespace {

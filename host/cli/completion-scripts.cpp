@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "host/cli/completion.h"
-#include "host/error.h"
-#include "host/suggest.h"
+#include <tessera/error.h>
+#include "host/support/suggest.h"
 
 namespace tessera::cli {
 namespace {

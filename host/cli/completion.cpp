@@ -6,10 +6,10 @@
 #include "datasets/generators.h"
 #include "datasets/installed-mesh.h"
 #include "host/cli/help.h"
-#include "host/emit.h"
-#include "host/stages.h"
-#include "host/variant.h"
-#include "host/vulkan/vulkan-device.h"
+#include "host/kernels/emit.h"
+#include "host/plan/stages.h"
+#include <tessera/variant.h>
+#include <tessera/vulkan-device.h>
 
 namespace tessera::cli {
 namespace {

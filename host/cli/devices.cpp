@@ -10,9 +10,9 @@
 #include "host/cli/probe-text.h"
 #include "host/cli/progress.h"
 #include "host/cli/table.h"
-#include "host/kernel-cache.h"
-#include "host/terminal.h"
-#include "host/vulkan/vulkan-device.h"
+#include <tessera/kernel-cache.h>
+#include "host/support/terminal.h"
+#include <tessera/vulkan-device.h>
 
 namespace tessera::cli {
 namespace {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "host/image.h"
+#include <tessera/image.h>
 
 namespace tessera::cli {
 

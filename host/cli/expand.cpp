@@ -17,7 +17,7 @@
 #include "host/cli/commands.h"
 #include "host/cli/common.h"
 #include "host/cli/table.h"
-#include "host/terminal.h"
+#include "host/support/terminal.h"
 
 namespace tessera::cli {
 namespace {

@@ -7,7 +7,7 @@
 #include "host/cli/completion.h"
 #include "host/cli/man.h"
 #include "host/cli/mistake.h"
-#include "host/terminal.h"
+#include "host/support/terminal.h"
 
 namespace tessera::cli {
 

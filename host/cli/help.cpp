@@ -10,9 +10,9 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "datasets/input.h"
-#include "host/suggest.h"
-#include "host/variant.h"
+#include <tessera/input.h>
+#include "host/support/suggest.h"
+#include <tessera/variant.h>
 
 namespace tessera::cli {
 namespace {

@@ -10,13 +10,13 @@
 #include <thread>
 
 #include "host/cli/measure.h"
-#include "host/cpu/cpu-device.h"
-#include "host/cpu/kernel-fault.h"
-#include "host/error.h"
-#include "host/plan.h"
-#include "host/stages.h"
-#include "host/terminal.h"
-#include "host/user-kernel.h"
+#include <tessera/cpu-device.h>
+#include "host/devices/cpu/kernel-fault.h"
+#include <tessera/error.h>
+#include <tessera/plan.h>
+#include "host/plan/stages.h"
+#include "host/support/terminal.h"
+#include "host/kernels/user-kernel.h"
 
 namespace tessera::cli {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <memory>
 
-#include "host/kernel-cache.h"
-#include "host/rasterizer.h"
-#include "host/scene.h"
+#include <tessera/kernel-cache.h>
+#include <tessera/rasterizer.h>
+#include <tessera/scene.h>
 
 namespace tessera::cli {
 

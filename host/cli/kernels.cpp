@@ -6,19 +6,19 @@
 #include <filesystem>
 #include <memory>
 
-#include "datasets/input.h"
+#include <tessera/input.h>
 #include "host/cli/commands.h"
 #include "host/cli/common.h"
 #include "host/cli/manifest.h"
 #include "host/cli/measure.h"
 #include "host/cli/table.h"
-#include "host/emit.h"
-#include "host/error.h"
-#include "host/files.h"
-#include "host/kernel-cache.h"
-#include "host/plan.h"
-#include "host/stages.h"
-#include "host/terminal.h"
+#include "host/kernels/emit.h"
+#include <tessera/error.h>
+#include "host/support/files.h"
+#include <tessera/kernel-cache.h>
+#include <tessera/plan.h>
+#include "host/plan/stages.h"
+#include "host/support/terminal.h"
 
 namespace tessera::cli {
 namespace {

@@ -15,7 +15,7 @@
 #include "host/cli/commands.h"
 #include "host/cli/help.h"
 #include "host/cli/mistake.h"
-#include "host/terminal.h"
+#include "host/support/terminal.h"
 
 namespace {
 

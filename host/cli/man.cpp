@@ -4,11 +4,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "datasets/input.h"
+#include <tessera/input.h>
 #include "host/build-info.h"
 #include "host/cli/help.h"
-#include "host/suggest.h"
-#include "host/variant.h"
+#include "host/support/suggest.h"
+#include <tessera/variant.h>
 
 namespace tessera::cli {
 namespace {

@@ -9,10 +9,10 @@
 
 #include "host/build-info.h"
 #include "host/cli/recorder.h"
-#include "host/counters.h"
-#include "host/cpu/cpu-device.h"
-#include "host/error.h"
-#include "host/rasterizer.h"
+#include <tessera/counters.h>
+#include <tessera/cpu-device.h>
+#include <tessera/error.h>
+#include <tessera/rasterizer.h>
 
 namespace tessera::cli {
 namespace {

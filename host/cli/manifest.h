@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "host/emit.h"
-#include "host/plan.h"
-#include "host/scene.h"
-#include "host/variant.h"
+#include "host/kernels/emit.h"
+#include <tessera/plan.h>
+#include <tessera/scene.h>
+#include <tessera/variant.h>
 
 namespace tessera::cli {
 

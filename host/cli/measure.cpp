@@ -10,11 +10,11 @@
 #include <tuple>
 
 #include "host/cli/progress.h"
-#include "host/error.h"
-#include "host/oracle-image.h"
-#include "host/stages.h"
-#include "host/terminal.h"
-#include "host/user-kernel.h"
+#include <tessera/error.h>
+#include "host/oracle/oracle-image.h"
+#include "host/plan/stages.h"
+#include "host/support/terminal.h"
+#include "host/kernels/user-kernel.h"
 
 namespace tessera::cli {
 

@@ -4,9 +4,9 @@
 #include <functional>
 #include <vector>
 
-#include "host/kernel-cache.h"
-#include "host/plan.h"
-#include "host/row.h"
+#include <tessera/kernel-cache.h>
+#include <tessera/plan.h>
+#include "host/measure/row.h"
 
 namespace tessera::cli {
 

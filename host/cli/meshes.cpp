@@ -1,8 +1,8 @@
 // tessera meshes: what INPUT may name beside files, a line each.
-#include "datasets/input.h"
+#include <tessera/input.h>
 #include "datasets/installed-mesh.h"
 #include "host/cli/commands.h"
-#include "host/terminal.h"
+#include "host/support/terminal.h"
 
 namespace tessera::cli {
 

@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "host/cli/help.h"
-#include "host/error.h"
-#include "host/suggest.h"
-#include "host/variant.h"
+#include <tessera/error.h>
+#include "host/support/suggest.h"
+#include <tessera/variant.h>
 
 namespace tessera::cli {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "host/oracle-image.h"
-#include "host/reference.h"
+#include "host/oracle/oracle-image.h"
+#include <tessera/oracle.h>
 
 namespace tessera::cli {
 Oracle::Oracle(const Scene& scene, const Variant& variant) : image_(reference::render(scene, imageOf(variant)).image) {}

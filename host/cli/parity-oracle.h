@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "host/image.h"
-#include "host/rasterizer.h"
-#include "host/scene.h"
+#include <tessera/image.h>
+#include <tessera/rasterizer.h>
+#include <tessera/scene.h>
 
 namespace tessera::cli {
 

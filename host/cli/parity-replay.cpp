@@ -4,14 +4,14 @@
 #include <filesystem>
 #include <set>
 
-#include "datasets/input.h"
+#include <tessera/input.h>
 #include "host/cli/parity-oracle.h"
 #include "host/cli/progress.h"
-#include "host/error.h"
-#include "host/files.h"
-#include "host/image.h"
-#include "host/plan.h"
-#include "host/stages.h"
+#include <tessera/error.h>
+#include "host/support/files.h"
+#include <tessera/image.h>
+#include <tessera/plan.h>
+#include "host/plan/stages.h"
 
 namespace tessera::cli {
 namespace {

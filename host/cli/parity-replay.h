@@ -5,8 +5,8 @@
 
 #include "host/cli/parity-report.h"
 #include "host/cli/reduce.h"
-#include "host/device.h"
-#include "host/kernel-cache.h"
+#include <tessera/device.h>
+#include <tessera/kernel-cache.h>
 
 namespace tessera::cli {
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "host/error.h"
-#include "host/probe.h"
-#include "host/row.h"
+#include <tessera/error.h>
+#include <tessera/probe.h>
+#include "host/measure/row.h"
 
 namespace tessera::cli {
 

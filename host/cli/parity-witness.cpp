@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "host/cli/parity-oracle.h"
-#include "host/framebuffer.h"
+#include <tessera/framebuffer.h>
 
 namespace tessera::cli {
 namespace {

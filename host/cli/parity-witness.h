@@ -5,9 +5,9 @@
 #include <optional>
 #include <string>
 
-#include "host/kernel-cache.h"
-#include "host/rasterizer.h"
-#include "host/variant.h"
+#include <tessera/kernel-cache.h>
+#include <tessera/rasterizer.h>
+#include <tessera/variant.h>
 
 namespace tessera::cli {
 

@@ -7,7 +7,7 @@
 #include <memory>
 #include <optional>
 
-#include "datasets/input.h"
+#include <tessera/input.h>
 #include "host/cli/commands.h"
 #include "host/cli/common.h"
 #include "host/cli/difference.h"
@@ -19,10 +19,10 @@
 #include "host/cli/parity-witness.h"
 #include "host/cli/progress.h"
 #include "host/cli/table.h"
-#include "host/compiler-tools.h"
-#include "host/files.h"
-#include "host/terminal.h"
-#include "host/vulkan/vulkan-device.h"
+#include "host/kernels/compiler-tools.h"
+#include "host/support/files.h"
+#include "host/support/terminal.h"
+#include <tessera/vulkan-device.h>
 
 namespace tessera::cli {
 namespace {

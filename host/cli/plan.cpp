@@ -1,5 +1,5 @@
 // tessera plan: which passes a scene needs under a variant, and why each other one is left out.
-#include "host/plan.h"
+#include <tessera/plan.h>
 
 #include <fmt/format.h>
 
@@ -7,12 +7,12 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "host/choice.h"
+#include "host/plan/choice.h"
 #include "host/cli/commands.h"
 #include "host/cli/common.h"
 #include "host/cli/table.h"
-#include "host/stages.h"
-#include "host/terminal.h"
+#include "host/plan/stages.h"
+#include "host/support/terminal.h"
 
 namespace tessera::cli {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "host/kernel.h"
-#include "host/probe.h"
+#include <tessera/kernel.h>
+#include <tessera/probe.h>
 
 namespace tessera::cli {
 

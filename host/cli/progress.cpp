@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <system_error>
 
-#include "host/terminal.h"
+#include "host/support/terminal.h"
 
 namespace tessera::cli {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "host/device.h"
+#include <tessera/device.h>
 
 namespace tessera::cli {
 

@@ -6,7 +6,7 @@
 #include <functional>
 #include <vector>
 
-#include "host/scene.h"
+#include <tessera/scene.h>
 
 namespace tessera::cli {
 

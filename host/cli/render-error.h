@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "host/rasterizer.h"
-#include "host/row.h"
+#include <tessera/rasterizer.h>
+#include "host/measure/row.h"
 
 namespace tessera::cli {
 

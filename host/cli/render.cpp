@@ -15,13 +15,13 @@
 #include "host/cli/render-error.h"
 #include "host/cli/table.h"
 #include "host/cli/times.h"
-#include "host/files.h"
-#include "host/image-facts.h"
-#include "host/image.h"
-#include "host/kernel-cache.h"
-#include "host/rasterizer.h"
-#include "host/row.h"
-#include "host/terminal.h"
+#include "host/support/files.h"
+#include "host/measure/image-facts.h"
+#include <tessera/image.h>
+#include <tessera/kernel-cache.h>
+#include <tessera/rasterizer.h>
+#include "host/measure/row.h"
+#include "host/support/terminal.h"
 
 namespace tessera::cli {
 namespace {

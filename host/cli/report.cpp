@@ -14,10 +14,10 @@
 #include "experiments/harness/rows.h"
 #include "host/cli/commands.h"
 #include "host/cli/common.h"
-#include "host/compiler-tools.h"
-#include "host/home.h"
-#include "host/row.h"
-#include "host/terminal.h"
+#include "host/kernels/compiler-tools.h"
+#include "host/support/home.h"
+#include "host/measure/row.h"
+#include "host/support/terminal.h"
 
 namespace tessera::cli {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "host/row.h"
+#include "host/measure/row.h"
 
 namespace tessera::cli {
 

@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "host/cli/commands.h"
-#include "host/terminal.h"
-#include "host/variant.h"
+#include "host/support/terminal.h"
+#include <tessera/variant.h>
 
 namespace tessera::cli {
 namespace {

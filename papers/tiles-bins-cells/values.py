@@ -37,7 +37,7 @@ def readSweep(folder):
 
 
 def schemaVersion():
-  return int(re.search(r"kRowSchemaVersion = (\d+);", (kRoot / "host/row.h").read_text())[1])
+  return int(re.search(r"kRowSchemaVersion = (\d+);", (kRoot / "host/measure/row.h").read_text())[1])
 
 
 def constant(file, name):

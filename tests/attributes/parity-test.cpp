@@ -4,10 +4,10 @@
 #include <cmath>
 #include <limits>
 
-#include "datasets/input.h"
+#include <tessera/input.h>
 #include "datasets/random.h"
-#include "host/cpu/cpu-device.h"
-#include "host/error.h"
+#include <tessera/cpu-device.h>
+#include <tessera/error.h>
 #include "tests/support/compare.h"
 #include "tests/support/cut-device.h"
 #include "tests/support/machines.h"

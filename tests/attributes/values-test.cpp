@@ -5,8 +5,8 @@
 #include <cmath>
 #include <random>
 
-#include "datasets/input.h"
-#include "host/reference.h"
+#include <tessera/input.h>
+#include <tessera/oracle.h>
 #include "tests/reference/in-pixels.h"
 #include "tests/support/compare.h"
 #include "tests/support/machines.h"

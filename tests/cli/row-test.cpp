@@ -1,5 +1,5 @@
 // The statistics of a row, on figures worked out by hand.
-#include "host/row.h"
+#include "host/measure/row.h"
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>

@@ -3,7 +3,7 @@
 #include <charconv>
 #include <fstream>
 
-#include "host/terminal.h"
+#include "host/support/terminal.h"
 #include "run-tessera.h"
 
 using tessera::visible;

@@ -9,8 +9,8 @@
 #include "datasets/camera.h"
 #include "datasets/extent.h"
 #include "fixture.h"
-#include "host/lighting.h"
-#include "host/reference.h"
+#include "host/frame/lighting.h"
+#include <tessera/oracle.h>
 
 using namespace tessera;
 

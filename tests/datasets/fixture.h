@@ -6,9 +6,9 @@
 #include <string>
 #include <string_view>
 
-#include "datasets/input.h"
-#include "host/error.h"
-#include "host/files.h"
+#include <tessera/input.h>
+#include <tessera/error.h>
+#include "host/support/files.h"
 
 namespace tessera {
 

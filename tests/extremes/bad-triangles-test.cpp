@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "datasets/input.h"
+#include <tessera/input.h>
 #include "tests/support/compare.h"
 #include "tests/support/machines.h"
 #include "tests/support/random-scene.h"

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "datasets/random.h"
-#include "host/reference-clip.h"
+#include "host/oracle/reference-clip.h"
 #include "tests/support/compare.h"
 #include "tests/support/machines.h"
 #include "tests/support/variants.h"

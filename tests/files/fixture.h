@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "host/files.h"
+#include "host/support/files.h"
 
 namespace tessera::test {
 

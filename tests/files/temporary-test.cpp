@@ -1,5 +1,5 @@
 // Temporary names are new, one's own, and cleared when their run is gone.
-#include "host/temporary.h"
+#include "host/support/temporary.h"
 
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "fixture.h"
-#include "host/error.h"
+#include <tessera/error.h>
 #include "tests/support/error-line.h"
 
 namespace tessera::test {

@@ -13,7 +13,7 @@
 #include <cstring>
 #include <fstream>
 
-#include "host/error.h"
+#include <tessera/error.h>
 #include "mutate.h"
 #include "seeds.h"
 

@@ -5,13 +5,13 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "datasets/input.h"
+#include <tessera/input.h>
 #include "datasets/text.h"
 #include "experiments/harness/cells.h"
 #include "experiments/harness/journal.h"
-#include "host/error.h"
-#include "host/image.h"
-#include "host/row.h"
+#include <tessera/error.h>
+#include <tessera/image.h>
+#include "host/measure/row.h"
 #include "tests/sweep/small-journal.h"
 
 namespace tessera {

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 
-#include "host/error.h"
-#include "host/image.h"
+#include <tessera/error.h>
+#include <tessera/image.h>
 
 using namespace tessera;
 

@@ -11,9 +11,9 @@
 #include <sstream>
 
 #include "command.h"
-#include "datasets/input.h"
-#include "host/files.h"
-#include "host/image.h"
+#include <tessera/input.h>
+#include "host/support/files.h"
+#include <tessera/image.h>
 
 using namespace tessera;
 using Catch::Matchers::Contains;

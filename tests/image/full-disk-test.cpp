@@ -10,9 +10,9 @@
 #include <iterator>
 
 #include "command.h"
-#include "host/error.h"
-#include "host/files.h"
-#include "host/image.h"
+#include <tessera/error.h>
+#include "host/support/files.h"
+#include <tessera/image.h>
 
 using namespace tessera;
 using Catch::Matchers::Contains;

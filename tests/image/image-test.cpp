@@ -1,5 +1,5 @@
 // Framebuffers to files and back, and every way in which that can fail.
-#include "host/image.h"
+#include <tessera/image.h>
 
 #include <OpenImageIO/imageio.h>
 
@@ -12,8 +12,8 @@
 #include <iterator>
 #include <random>
 
-#include "host/error.h"
-#include "host/files.h"
+#include <tessera/error.h>
+#include "host/support/files.h"
 
 using namespace tessera;
 using Catch::Matchers::Contains;

@@ -6,9 +6,9 @@
 #include <fstream>
 #include <string>
 
-#include "host/error.h"
-#include "host/files.h"
-#include "host/image.h"
+#include <tessera/error.h>
+#include "host/support/files.h"
+#include <tessera/image.h>
 
 using namespace tessera;
 using Catch::Matchers::Contains;

@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "command.h"
-#include "host/files.h"
+#include "host/support/files.h"
 
 using Catch::Matchers::Contains;
 using tessera::test::Output;

@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "command.h"
-#include "host/comparison.h"
-#include "host/files.h"
+#include "host/images/comparison.h"
+#include "host/support/files.h"
 
 using namespace tessera;
 using Catch::Matchers::Contains;

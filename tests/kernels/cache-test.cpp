@@ -8,8 +8,8 @@
 #include <set>
 
 #include "fixture.h"
-#include "host/slang-sources.h"
-#include "host/spirv.h"
+#include "host/kernels/slang-sources.h"
+#include "host/kernels/spirv.h"
 
 namespace tessera::test {
 namespace fs = std::filesystem;

@@ -7,7 +7,7 @@
 #endif
 
 #include "fixture.h"
-#include "host/cpu/cpu-device.h"
+#include <tessera/cpu-device.h>
 
 namespace tessera::test {
 namespace {

@@ -1,5 +1,5 @@
 // The threads of the CPU device: every element once, exceptions, and as many threads as were asked for.
-#include "host/cpu/crew.h"
+#include "host/devices/cpu/crew.h"
 
 #include <algorithm>
 #include <atomic>

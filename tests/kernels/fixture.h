@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <string>
 
-#include "host/files.h"
-#include "host/kernel-cache.h"
+#include "host/support/files.h"
+#include <tessera/kernel-cache.h>
 #include "tests/support/error-line.h"
 
 namespace tessera::test {

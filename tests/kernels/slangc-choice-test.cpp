@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "fixture.h"
-#include "host/slang-sources.h"
+#include "host/kernels/slang-sources.h"
 
 namespace tessera::test {
 namespace fs = std::filesystem;

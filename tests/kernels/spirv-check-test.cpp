@@ -3,8 +3,8 @@
 #include <catch2/catch.hpp>
 
 #include "fixture.h"
-#include "host/spirv.h"
-#include "host/subprocess.h"
+#include "host/kernels/spirv.h"
+#include "host/support/subprocess.h"
 
 namespace tessera::test {
 namespace fs = std::filesystem;

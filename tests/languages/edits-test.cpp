@@ -4,9 +4,9 @@
 #include <utility>
 
 #include "fixture.h"
-#include "host/slang-sources.h"
-#include "host/stages.h"
-#include "host/user-kernel.h"
+#include "host/kernels/slang-sources.h"
+#include "host/plan/stages.h"
+#include "host/kernels/user-kernel.h"
 
 using namespace tessera;
 using namespace tessera::test;

@@ -1,12 +1,12 @@
 // tessera kernels --emit: each stage of a variant in a file of its own.
-#include "host/emit.h"
+#include "host/kernels/emit.h"
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "fixture.h"
-#include "host/spirv.h"
+#include "host/kernels/spirv.h"
 #include "tests/cli/run-tessera.h"
 
 using namespace tessera::test;

@@ -2,9 +2,9 @@
 
 #include <fstream>
 
-#include "host/cpu/cpu-device.h"
-#include "host/slang-sources.h"
-#include "host/vulkan/vulkan-device.h"
+#include <tessera/cpu-device.h>
+#include "host/kernels/slang-sources.h"
+#include <tessera/vulkan-device.h>
 
 namespace tessera::test {
 

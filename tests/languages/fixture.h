@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "host/files.h"
-#include "host/rasterizer.h"
+#include "host/support/files.h"
+#include <tessera/rasterizer.h>
 #include "tests/support/error-line.h"
 #include "tests/support/machines.h"
 

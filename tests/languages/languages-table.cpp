@@ -7,15 +7,15 @@
 #include <future>
 #include <regex>
 
-#include "datasets/input.h"
-#include "host/emit.h"
-#include "host/error.h"
-#include "host/files.h"
-#include "host/plan.h"
-#include "host/spirv.h"
-#include "host/stages.h"
-#include "host/subprocess.h"
-#include "host/vulkan/spirv-module.h"
+#include <tessera/input.h>
+#include "host/kernels/emit.h"
+#include <tessera/error.h>
+#include "host/support/files.h"
+#include <tessera/plan.h>
+#include "host/kernels/spirv.h"
+#include "host/plan/stages.h"
+#include "host/support/subprocess.h"
+#include "host/devices/vulkan/spirv-module.h"
 
 namespace tessera {
 namespace {

@@ -6,11 +6,11 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 
-#include "datasets/input.h"
+#include <tessera/input.h>
 #include "fixture.h"
-#include "host/oracle-image.h"
-#include "host/reference.h"
-#include "host/subprocess.h"
+#include "host/oracle/oracle-image.h"
+#include <tessera/oracle.h>
+#include "host/support/subprocess.h"
 #include "tests/cli/run-tessera.h"
 
 using namespace tessera;

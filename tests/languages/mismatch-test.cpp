@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "fixture.h"
-#include "host/user-kernel.h"
+#include "host/kernels/user-kernel.h"
 
 using namespace tessera;
 using namespace tessera::test;

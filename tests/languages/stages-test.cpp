@@ -1,11 +1,11 @@
 // Stages in other languages, run in place of their own kernels.
-#include "host/stages.h"
+#include "host/plan/stages.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "fixture.h"
-#include "host/user-kernel.h"
+#include "host/kernels/user-kernel.h"
 #include "tests/support/compare.h"
 #include "tests/support/random-scene.h"
 #include "tests/support/variants.h"

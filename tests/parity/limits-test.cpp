@@ -1,7 +1,7 @@
 // Many triangles in one place, and one triangle over many tiles.
 #include <catch2/catch.hpp>
 
-#include "datasets/input.h"
+#include <tessera/input.h>
 #include "tests/support/compare.h"
 #include "tests/support/machines.h"
 #include "tests/support/variants.h"

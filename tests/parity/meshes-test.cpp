@@ -6,7 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include "datasets/generators.h"
-#include "datasets/input.h"
+#include <tessera/input.h>
 #include "tests/support/compare.h"
 #include "tests/support/machines.h"
 #include "tests/support/variants.h"

@@ -5,7 +5,7 @@
 #include <map>
 
 #include "datasets/random.h"
-#include "host/error.h"
+#include <tessera/error.h>
 #include "tests/support/compare.h"
 #include "tests/support/machines.h"
 #include "tests/support/random-scene.h"

@@ -3,8 +3,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "datasets/input.h"
-#include "host/lighting.h"
+#include <tessera/input.h>
+#include "host/frame/lighting.h"
 #include "tests/support/compare.h"
 #include "tests/support/machines.h"
 

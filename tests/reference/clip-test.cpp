@@ -4,8 +4,8 @@
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "host/reference-clip.h"
-#include "host/reference.h"
+#include "host/oracle/reference-clip.h"
+#include <tessera/oracle.h>
 #include "tests/reference/in-pixels.h"
 
 using namespace tessera;

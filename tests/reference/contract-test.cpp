@@ -6,7 +6,7 @@
 #include <limits>
 #include <random>
 
-#include "host/reference.h"
+#include <tessera/oracle.h>
 #include "tests/reference/in-pixels.h"
 
 using namespace tessera;

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <random>
 
-#include "host/reference.h"
+#include <tessera/oracle.h>
 #include "tests/reference/in-pixels.h"
 
 using namespace tessera;

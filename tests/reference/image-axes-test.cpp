@@ -5,8 +5,8 @@
 #include <cmath>
 #include <random>
 
-#include "host/oracle-image.h"
-#include "host/reference.h"
+#include "host/oracle/oracle-image.h"
+#include <tessera/oracle.h>
 #include "tests/reference/in-pixels.h"
 
 using namespace tessera;

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "host/scene.h"
+#include <tessera/scene.h>
 
 namespace tessera {
 

@@ -8,9 +8,9 @@
 #include <fstream>
 #include <map>
 
-#include "datasets/input.h"
-#include "host/files.h"
-#include "host/subprocess.h"
+#include <tessera/input.h>
+#include "host/support/files.h"
+#include "host/support/subprocess.h"
 
 using namespace tessera;
 

@@ -5,9 +5,9 @@
 #include <cstring>
 #include <vector>
 
-#include "host/cpu/cpu-device.h"
-#include "host/error.h"
-#include "host/kernel-cache.h"
+#include <tessera/cpu-device.h>
+#include <tessera/error.h>
+#include <tessera/kernel-cache.h>
 
 int main(int argc, char** argv) try {
   using namespace tessera;

@@ -9,11 +9,11 @@
 #include <set>
 #include <sstream>
 
-#include "host/error.h"
-#include "host/files.h"
-#include "host/spirv.h"
-#include "host/subprocess.h"
-#include "host/vulkan/spirv-module.h"
+#include <tessera/error.h>
+#include "host/support/files.h"
+#include "host/kernels/spirv.h"
+#include "host/support/subprocess.h"
+#include "host/devices/vulkan/spirv-module.h"
 #include "tests/support/covering.h"
 
 namespace tessera::test {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "host/stages.h"
+#include "host/plan/stages.h"
 
 namespace tessera::test {
 

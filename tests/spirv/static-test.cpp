@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "all-kernels.h"
-#include "host/spirv.h"
+#include "host/kernels/spirv.h"
 
 using namespace tessera;
 using namespace tessera::test;

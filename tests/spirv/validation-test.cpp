@@ -2,11 +2,11 @@
 #include <catch2/catch.hpp>
 
 #include "all-kernels.h"
-#include "datasets/input.h"
-#include "host/error.h"
-#include "host/rasterizer.h"
-#include "host/row.h"
-#include "host/vulkan/vulkan-device.h"
+#include <tessera/input.h>
+#include <tessera/error.h>
+#include <tessera/rasterizer.h>
+#include "host/measure/row.h"
+#include <tessera/vulkan-device.h>
 #include "tests/support/variants.h"
 
 using namespace tessera;

@@ -3,9 +3,9 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "datasets/input.h"
+#include <tessera/input.h>
 #include "datasets/random.h"
-#include "host/oracle-image.h"
+#include "host/oracle/oracle-image.h"
 #include "tests/support/compare.h"
 #include "tests/support/machines.h"
 

@@ -7,11 +7,11 @@
 #include <set>
 
 #include "evidence.h"
-#include "host/error.h"
-#include "host/kernel-cache.h"
-#include "host/slang-sources.h"
-#include "host/spirv.h"
-#include "host/stages.h"
+#include <tessera/error.h>
+#include <tessera/kernel-cache.h>
+#include "host/kernels/slang-sources.h"
+#include "host/kernels/spirv.h"
+#include "host/plan/stages.h"
 
 using namespace tessera;
 

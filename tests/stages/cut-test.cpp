@@ -4,9 +4,9 @@
 
 #include <catch2/catch.hpp>
 
-#include "datasets/input.h"
-#include "host/cpu/cpu-device.h"
-#include "host/error.h"
+#include <tessera/input.h>
+#include <tessera/cpu-device.h>
+#include <tessera/error.h>
 #include "tests/support/compare.h"
 #include "tests/support/cut-device.h"
 #include "tests/support/machines.h"

@@ -1,7 +1,7 @@
 #include "evidence-scenes.h"
-#include "host/kernel-cache.h"
-#include "host/spirv.h"
-#include "host/stages.h"
+#include <tessera/kernel-cache.h>
+#include "host/kernels/spirv.h"
+#include "host/plan/stages.h"
 
 namespace tessera {
 namespace {

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 
-#include "datasets/input.h"
+#include <tessera/input.h>
 #include "evidence.h"
-#include "host/error.h"
+#include <tessera/error.h>
 #include "tests/support/compare.h"
 #include "tests/support/machines.h"
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 
-#include "datasets/input.h"
-#include "host/error.h"
+#include <tessera/input.h>
+#include <tessera/error.h>
 #include "tests/support/compare.h"
 #include "tests/support/machines.h"
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 
-#include "datasets/input.h"
+#include <tessera/input.h>
 #include "datasets/random.h"
-#include "host/cpu/cpu-device.h"
+#include <tessera/cpu-device.h>
 #include "tests/support/compare.h"
 #include "tests/support/machines.h"
 #include "tests/support/variants.h"

@@ -3,7 +3,7 @@
 #include <map>
 #include <set>
 
-#include "datasets/input.h"
+#include <tessera/input.h>
 #include "tests/support/compare.h"
 #include "tests/support/machines.h"
 #include "tests/support/random-scene.h"

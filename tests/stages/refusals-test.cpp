@@ -2,10 +2,10 @@
 // why, and what would do.
 #include <catch2/catch.hpp>
 
-#include "datasets/input.h"
-#include "host/choice.h"
-#include "host/error.h"
-#include "host/plan.h"
+#include <tessera/input.h>
+#include "host/plan/choice.h"
+#include <tessera/error.h>
+#include <tessera/plan.h>
 
 using namespace tessera;
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "host/image.h"
+#include <tessera/image.h>
 
 namespace tessera {
 namespace {

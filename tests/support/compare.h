@@ -3,10 +3,10 @@
 
 #include <string>
 
-#include "host/framebuffer.h"
-#include "host/oracle-image.h"
-#include "host/rasterizer.h"
-#include "host/reference.h"
+#include <tessera/framebuffer.h>
+#include "host/oracle/oracle-image.h"
+#include <tessera/rasterizer.h>
+#include <tessera/oracle.h>
 
 namespace tessera {
 

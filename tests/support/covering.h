@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "host/variant.h"
+#include <tessera/variant.h>
 
 namespace tessera {
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "host/error.h"
+#include <tessera/error.h>
 
 namespace tessera {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "host/device.h"
+#include <tessera/device.h>
 
 namespace tessera {
 

@@ -4,7 +4,7 @@
 #include <functional>
 #include <string>
 
-#include "host/error.h"
+#include <tessera/error.h>
 
 namespace tessera::test {
 

@@ -4,8 +4,8 @@
 #include <cstdlib>
 #include <map>
 
-#include "host/cpu/cpu-device.h"
-#include "host/vulkan/vulkan-device.h"
+#include <tessera/cpu-device.h>
+#include <tessera/vulkan-device.h>
 
 namespace tessera {
 

@@ -5,9 +5,9 @@
 #include <memory>
 #include <string>
 
-#include "host/device.h"
-#include "host/kernel-cache.h"
-#include "host/rasterizer.h"
+#include <tessera/device.h>
+#include <tessera/kernel-cache.h>
+#include <tessera/rasterizer.h>
 
 namespace tessera {
 

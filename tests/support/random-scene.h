@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-#include "host/scene.h"
-#include "host/variant.h"
+#include <tessera/scene.h>
+#include <tessera/variant.h>
 
 namespace tessera {
 

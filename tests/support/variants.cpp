@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <set>
 
-#include "host/error.h"
+#include <tessera/error.h>
 #include "tests/support/covering.h"
 
 namespace tessera {

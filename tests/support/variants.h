@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "host/plan.h"
-#include "host/variant.h"
+#include <tessera/plan.h>
+#include <tessera/variant.h>
 
 namespace tessera {
 

@@ -9,9 +9,9 @@
 #include "datasets/text.h"
 #include "experiments/harness/folder.h"
 #include "experiments/harness/rows.h"
-#include "host/error.h"
-#include "host/files.h"
-#include "host/row.h"
+#include <tessera/error.h>
+#include "host/support/files.h"
+#include "host/measure/row.h"
 #include "tests/sweep/small-journal.h"
 
 using namespace tessera;

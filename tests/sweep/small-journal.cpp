@@ -1,7 +1,7 @@
 #include "tests/sweep/small-journal.h"
 
 #include "experiments/harness/journal.h"
-#include "host/row.h"
+#include "host/measure/row.h"
 
 namespace tessera::test {
 

@@ -1,4 +1,4 @@
-// The promises of host/device.h on a Vulkan device, with memory mapped and copied, validation layer on.
+// The promises of host/include/tessera/device.h on a Vulkan device, with memory mapped and copied, validation layer on.
 #include <algorithm>
 #include <array>
 #include <catch2/catch.hpp>
@@ -6,9 +6,9 @@
 #include <cstring>
 #include <numeric>
 
-#include "host/error.h"
-#include "host/kernel-cache.h"
-#include "host/vulkan/vulkan-device.h"
+#include <tessera/error.h>
+#include <tessera/kernel-cache.h>
+#include <tessera/vulkan-device.h>
 
 using namespace tessera;
 

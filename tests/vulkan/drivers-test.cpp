@@ -2,8 +2,8 @@
 #include <catch2/catch.hpp>
 #include <cstdlib>
 
-#include "host/error.h"
-#include "host/vulkan/vulkan-device.h"
+#include <tessera/error.h>
+#include <tessera/vulkan-device.h>
 #include "tests/cli/run-tessera.h"
 
 using namespace tessera::test;

@@ -1,5 +1,5 @@
 // The start-up probe passes on the CPU, and sees what it is there to see.
-#include "host/probe.h"
+#include <tessera/probe.h>
 
 #include <unistd.h>
 
@@ -9,9 +9,9 @@
 #include <fstream>
 #include <sstream>
 
-#include "host/cpu/cpu-device.h"
-#include "host/kernel-cache.h"
-#include "host/vulkan/vulkan-device.h"
+#include <tessera/cpu-device.h>
+#include <tessera/kernel-cache.h>
+#include <tessera/vulkan-device.h>
 #include "tests/support/machines.h"
 
 using namespace tessera;

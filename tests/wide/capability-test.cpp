@@ -3,10 +3,10 @@
 #include <catch2/catch.hpp>
 #include <set>
 
-#include "host/error.h"
-#include "host/kernel-cache.h"
-#include "host/spirv.h"
-#include "host/stages.h"
+#include <tessera/error.h>
+#include <tessera/kernel-cache.h>
+#include "host/kernels/spirv.h"
+#include "host/plan/stages.h"
 
 using namespace tessera;
 

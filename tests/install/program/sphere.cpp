@@ -1,11 +1,11 @@
 // Renders a generated mesh on the CPU, through the installed library alone.
 #include <cstdio>
 
-#include "datasets/input.h"
-#include "host/cpu/cpu-device.h"
-#include "host/image.h"
-#include "host/kernel-cache.h"
-#include "host/rasterizer.h"
+#include <tessera/input.h>
+#include <tessera/cpu-device.h>
+#include <tessera/image.h>
+#include <tessera/kernel-cache.h>
+#include <tessera/rasterizer.h>
 
 int main() {
   tessera::Scene scene = tessera::loadInput("generate:icosphere?level=3");

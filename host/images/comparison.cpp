@@ -1,0 +1,275 @@
+#include "host/images/comparison.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include <tessera/error.h>
+
+namespace tessera {
+namespace {
+
+enum class Part { kNone, kCoverage, kId, kDepth, kHits, kAttribute, kColour };
+
+// float32 numbers in order, -0 and +0 at 0: neighbours are 1 apart.
+std::int64_t stepOf(float value) {
+  const auto bits = std::bit_cast<std::uint32_t>(value);
+  const auto magnitude = static_cast<std::int64_t>(bits & 0x7fffffffu);
+  return bits >> 31 ? -magnitude : magnitude;
+}
+
+double apart(float a, float b) { return std::abs(static_cast<double>(a) - static_cast<double>(b)); }
+double stepsApart(float a, float b) { return static_cast<double>(std::abs(stepOf(a) - stepOf(b))); }
+
+bool differ(float a, float b, const Amount& amount) {
+  if (std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b)) return false;
+  if (!amount.any()) return true;
+  if (std::isnan(a) || std::isnan(b)) return !(std::isnan(a) && std::isnan(b));
+  return !(apart(a, b) <= amount.absolute || (stepsApart(a, b) <= amount.steps && std::isfinite(a - b)));
+}
+
+// What both framebuffers hold, read pixel by pixel.
+class Pair {
+ public:
+  Pair(const Framebuffer& a, const Framebuffer& b, const Tolerances& tolerances)
+      : a_(a),
+        b_(b),
+        tolerances_(tolerances),
+        ids_(both(a.ids, b.ids)),
+        depth_(both(a.depth, b.depth)),
+        hits_(both(a.hits, b.hits)),
+        attribute_(both(a.attribute, b.attribute)),
+        colour_(both(a.colour, b.colour)) {
+    if (a.width != b.width || a.height != b.height) {
+      failUsage(fmt::format("the images are {} x {} and {} x {} pixels; they should have one size", a.width, a.height,
+                            b.width, b.height));
+    }
+    if (!ids_ && !depth_ && !hits_ && !attribute_ && !colour_)
+      failUsage("the images have no channel in common: nothing to compare");
+  }
+
+  bool hasCoverage() const { return ids_ || hits_; }
+  bool hasIds() const { return ids_; }
+  bool hasDepth() const { return depth_; }
+  bool hasHits() const { return hits_; }
+  bool hasColour() const { return colour_; }
+  bool hasAttribute() const { return attribute_; }
+  bool idUnknown(std::size_t k) const {
+    return ids_ && (a_.ids[k] == kUnknownTriangle || b_.ids[k] == kUnknownTriangle);
+  }
+  bool covered(std::size_t k) const { return ids_ ? a_.ids[k] != kNoTriangle : hits_ ? a_.hits[k] != 0 : true; }
+  bool coverageDiffers(std::size_t k) const {
+    if (ids_) return (a_.ids[k] == kNoTriangle) != (b_.ids[k] == kNoTriangle);
+    return hits_ && (a_.hits[k] == 0) != (b_.hits[k] == 0);
+  }
+  bool idDiffers(std::size_t k) const {
+    if (!ids_ || a_.ids[k] == b_.ids[k]) return false;
+    return !idUnknown(k) || coverageDiffers(k);
+  }
+  bool depthDiffers(std::size_t k) const { return depth_ && differ(a_.depth[k], b_.depth[k], tolerances_.depth); }
+  bool attributeDiffers(std::size_t k) const {
+    return attribute_ && differ(a_.attribute[k], b_.attribute[k], tolerances_.attribute);
+  }
+  bool hitsDiffer(std::size_t k) const { return hits_ && a_.hits[k] != b_.hits[k]; }
+  bool colourDiffers(std::size_t k) const {
+    if (!colour_) return false;
+    for (int c = 0; c < 3; ++c)
+      if (differ(a_.colour[k][c], b_.colour[k][c], tolerances_.colour)) return true;
+    return false;
+  }
+
+  /// The most telling difference of a pixel.
+  Part part(std::size_t k) const {
+    return coverageDiffers(k)    ? Part::kCoverage
+           : idDiffers(k)        ? Part::kId
+           : depthDiffers(k)     ? Part::kDepth
+           : hitsDiffer(k)       ? Part::kHits
+           : attributeDiffers(k) ? Part::kAttribute
+           : colourDiffers(k)    ? Part::kColour
+                                 : Part::kNone;
+  }
+
+ private:
+  template <typename T>
+  static bool both(const std::vector<T>& a, const std::vector<T>& b) {
+    return !a.empty() && !b.empty();
+  }
+  const Framebuffer &a_, &b_;
+  const Tolerances& tolerances_;
+  bool ids_, depth_, hits_, attribute_, colour_;
+};
+
+double squaredDistance(const glm::vec3& a, const glm::vec3& b) {
+  double sum = 0;
+  for (int c = 0; c < 3; ++c) {
+    const double d = static_cast<double>(a[c]) - static_cast<double>(b[c]);
+    sum += d * d;
+  }
+  return sum;
+}
+
+Framebuffer onePixel(const Framebuffer& frame, std::size_t k) {
+  Framebuffer pixel{.width = 1, .height = 1, .depth = {}, .ids = {}, .hits = {}, .colour = {}};
+  const auto take = [&](auto& to, const auto& from) {
+    if (!from.empty()) to.push_back(from[k]);
+  };
+  take(pixel.depth, frame.depth);
+  take(pixel.ids, frame.ids);
+  take(pixel.hits, frame.hits);
+  take(pixel.colour, frame.colour);
+  take(pixel.attribute, frame.attribute);
+  return pixel;
+}
+
+// sRGB bytes to linear.
+glm::vec3 linear(int r, int g, int b) {
+  const auto channel = [](int v) {
+    const float c = static_cast<float>(v) / 255;
+    return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f);
+  };
+  return {channel(r), channel(g), channel(b)};
+}
+
+}  // namespace
+
+struct Comparison::State {
+  Tolerances tolerances;
+  Difference sums;  // of what any rows held
+  bool idsKnown = true;
+  double squares = 0, attributeSquares = 0;
+  std::uint64_t values = 0;  // pixels that have one in both
+  std::uint32_t rows = 0;
+  Framebuffer firstA, firstB;
+
+  // Both say how far they are apart, within the tolerances or not.
+  void addDistances(const Pair& pair, const Framebuffer& a, const Framebuffer& b, std::size_t k) {
+    if (pair.hasDepth() && !pair.coverageDiffers(k) && differ(a.depth[k], b.depth[k], {})) {
+      const double distance = apart(a.depth[k], b.depth[k]);
+      sums.depthMaxAbs =
+          std::max(*sums.depthMaxAbs, std::isnan(distance) ? std::numeric_limits<double>::infinity() : distance);
+      sums.depthMaxUlp = std::max(*sums.depthMaxUlp, stepsApart(a.depth[k], b.depth[k]));
+    }
+    if (pair.hasAttribute() && !std::isnan(a.attribute[k]) && !std::isnan(b.attribute[k])) {
+      const double distance = apart(a.attribute[k], b.attribute[k]);
+      sums.attributeMax = std::max(*sums.attributeMax, distance);
+      attributeSquares += distance * distance;
+      ++values;
+    }
+    if (pair.hasColour() && std::memcmp(&a.colour[k], &b.colour[k], sizeof(glm::vec3)) != 0) {
+      squares += squaredDistance(a.colour[k], b.colour[k]);
+      for (int c = 0; c < 3; ++c) {
+        const double distance = apart(a.colour[k][c], b.colour[k][c]);
+        sums.colourMax =
+            std::max(*sums.colourMax, std::isnan(distance) ? std::numeric_limits<double>::infinity() : distance);
+      }
+    }
+  }
+
+  void begin(const Pair& pair) {
+    const auto count = [](bool held) { return held ? Difference::Count(0) : Difference::Count(); };
+    const auto most = [](bool held) { return held ? std::optional<double>(0) : std::optional<double>(); };
+    sums.coverage = count(pair.hasCoverage());
+    sums.id = count(pair.hasIds());
+    sums.depth = count(pair.hasDepth());
+    sums.hits = count(pair.hasHits());
+    sums.attribute = count(pair.hasAttribute());
+    sums.colour = count(pair.hasColour());
+    sums.depthMaxAbs = sums.depthMaxUlp = most(pair.hasDepth());
+    sums.attributeMax = sums.attributeRms = most(pair.hasAttribute());
+    sums.colourMax = sums.psnr = most(pair.hasColour());
+  }
+};
+
+Comparison::Comparison(const Tolerances& tolerances) : state_(std::make_unique<State>()) {
+  state_->tolerances = tolerances;
+}
+Comparison::~Comparison() = default;
+Comparison::Comparison(Comparison&&) noexcept = default;
+const Framebuffer& Comparison::firstOfA() const { return state_->firstA; }
+const Framebuffer& Comparison::firstOfB() const { return state_->firstB; }
+
+void Comparison::add(const Framebuffer& a, const Framebuffer& b) {
+  State& s = *state_;
+  const Pair pair(a, b, s.tolerances);
+  if (s.rows == 0) s.begin(pair);
+  const auto add = [](Difference::Count& count, bool differs) {
+    if (differs) ++*count;
+  };
+  for (std::size_t k = 0; k < a.pixels(); ++k) {
+    s.idsKnown = s.idsKnown && !pair.idUnknown(k);
+    s.addDistances(pair, a, b, k);
+    if (pair.part(k) == Part::kNone) continue;
+    add(s.sums.coverage, pair.coverageDiffers(k));
+    add(s.sums.id, pair.idDiffers(k));
+    add(s.sums.depth, pair.depthDiffers(k));
+    add(s.sums.hits, pair.hitsDiffer(k));
+    add(s.sums.attribute, pair.attributeDiffers(k));
+    add(s.sums.colour, pair.colourDiffers(k));
+    if (s.sums.anywhere++ != 0) continue;
+    s.sums.firstX = static_cast<std::int64_t>(k % a.width);
+    s.sums.firstY = static_cast<std::int64_t>(k / a.width) + s.rows;
+    s.firstA = onePixel(a, k);
+    s.firstB = onePixel(b, k);
+  }
+  s.sums.pixels += a.pixels();
+  s.rows += a.height;
+}
+
+Difference Comparison::difference() const {
+  const State& s = *state_;
+  Difference result = s.sums;
+  if (!s.idsKnown) result.id.reset();
+  if (result.attributeRms && s.values != 0)
+    result.attributeRms = std::sqrt(s.attributeSquares / static_cast<double>(s.values));
+  if (result.psnr)
+    result.psnr = -10 * std::log10(s.squares / (3 * static_cast<double>(result.pixels)));  // log10(0) is -infinity
+  return result;
+}
+
+Difference compare(const Framebuffer& a, const Framebuffer& b) {
+  Comparison comparison;
+  comparison.add(a, b);
+  return comparison.difference();
+}
+
+void paintDifference(const Framebuffer& a, const Framebuffer& b, std::uint32_t begin, std::uint32_t end, glm::vec3* out,
+                     const Tolerances& tolerances) {
+  // Colours that stay apart for colour-blind readers (M. Okabe, K. Ito: Color Universal Design, 2008).
+  static const glm::vec3 vermilion = linear(213, 94, 0), blue = linear(0, 114, 178), yellow = linear(240, 228, 66),
+                         purple = linear(204, 121, 167);
+  static const glm::vec3 drawn = linear(190, 190, 190), empty = linear(230, 230, 230);
+  const Pair pair(a, b, tolerances);
+  for (std::size_t k = std::size_t{begin} * a.width; k < std::size_t{end} * a.width; ++k) {
+    switch (pair.part(k)) {
+      case Part::kNone:
+        *out++ = pair.covered(k) ? drawn : empty;
+        break;
+      case Part::kCoverage:
+        *out++ = vermilion;
+        break;
+      case Part::kId:
+        *out++ = blue;
+        break;
+      case Part::kDepth:
+        *out++ = yellow;
+        break;
+      case Part::kHits:
+      case Part::kAttribute:
+      case Part::kColour:
+        *out++ = purple;
+        break;
+    }
+  }
+}
+
+std::vector<glm::vec3> differencePicture(const Framebuffer& a, const Framebuffer& b) {
+  std::vector<glm::vec3> picture(a.pixels());
+  paintDifference(a, b, 0, a.height, picture.data());
+  return picture;
+}
+
+}  // namespace tessera

@@ -1,0 +1,11 @@
+// Loads libtessera-image-io.so when an image is read or written.
+#pragma once
+
+#include "host/images/image-io/image-io.h"
+
+namespace tessera {
+
+/// Throws kFailure with one line where it is missing or cannot be loaded. Thread-safe; loads once.
+const imageio::Module& imageModule();
+
+}  // namespace tessera

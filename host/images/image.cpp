@@ -1,0 +1,268 @@
+#include <tessera/image.h>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cstring>
+#include <string>
+#include <system_error>
+#include <type_traits>
+#include <utility>
+
+#include <tessera/error.h>
+#include "host/images/exr-header.h"
+#include "host/support/files.h"
+#include "host/images/image-module.h"
+#include "host/images/picture.h"
+
+namespace tessera {
+namespace {
+
+namespace fs = std::filesystem;
+using imageio::Format;
+
+std::string extensionOf(const fs::path& path) {
+  std::string extension = path.extension().string();
+  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
+  return extension;
+}
+
+// A channel of an .exr and where its values lie in a framebuffer. All are 4 bytes wide.
+constexpr std::size_t kChannelBytes = 4;
+constexpr std::size_t kBandBytes = std::size_t{16} << 20;
+constexpr std::uint32_t kRowsOfChunk = 16;  // that zip packs together
+template <typename Byte>
+struct Channel {
+  const char *name, *type;
+  Byte* data;          ///< of pixel 0
+  std::size_t stride;  ///< bytes from pixel to pixel
+};
+
+template <typename Frame>
+auto channelsOf(Frame& frame) {
+  using Byte = std::conditional_t<std::is_const_v<Frame>, const std::byte, std::byte>;
+  std::vector<Channel<Byte>> channels;
+  const auto add = [&](const char* name, const char* type, auto& values, std::size_t offset) {
+    if (values.empty()) return;
+    channels.push_back({name, type, reinterpret_cast<Byte*>(values.data()) + offset, sizeof(values[0])});
+  };
+  add("R", "float", frame.colour, 0);
+  add("G", "float", frame.colour, 4);
+  add("B", "float", frame.colour, 8);
+  add("Z", "float", frame.depth, 0);
+  add("A", "float", frame.attribute, 0);
+  add("id", "uint", frame.ids, 0);
+  add("hits", "uint", frame.hits, 0);
+  return channels;
+}
+
+imageio::Header pngHeader(std::uint32_t width, std::uint32_t height, int channels, const ImageFacts& facts) {
+  imageio::Header header{width, height, {}, facts};
+  for (int c = 0; c < channels; ++c) header.channels.push_back({{}, "uint8", 1});
+  return header;
+}
+
+// The format that stands before a name, and the name after it; nothing where none stands there.
+std::pair<std::optional<Format>, std::string> splitName(const std::string& name) {
+  if (name.starts_with("png:")) return {Format::kPng, name.substr(4)};
+  if (name.starts_with("exr:")) return {Format::kExr, name.substr(4)};
+  return {{}, name};
+}
+
+Format formatOf(const std::string& name) {
+  const auto [format, path] = splitName(name);
+  if (format) return *format;
+  const std::string extension = extensionOf(path);
+  if (extension == ".png") return Format::kPng;
+  if (extension == ".exr") return Format::kExr;
+  failUsage(
+      fmt::format("{}: unknown image format '{}'; the name should end in .png or .exr, or begin with png: or exr: "
+                  "as in png:-",
+                  name, extension));
+}
+
+}  // namespace
+
+struct ImageOutput::State {
+  Format format;
+  fs::path path;
+  OutputFile file;
+
+  explicit State(const std::string& name) : format(formatOf(name)), path(splitName(name).second), file(path) {}
+
+  /// The libraries do not say that a disk is full: a try does.
+  std::string causeOf(const std::string& said) {
+    try {
+      checkWritten(file.path().parent_path(), said);
+    } catch (const WriteError& error) {
+      return error.what();
+    }
+    return said;
+  }
+
+  void write(const imageio::Header& header, const imageio::RowSource& rows) {
+    const std::string why = imageModule().write(file.path().string(), format, header, rows);
+    if (!why.empty()) fail(fmt::format("{}: could not be written: {}", path.string(), causeOf(why)));
+    file.commit();
+  }
+};
+
+ImageOutput::ImageOutput(const std::string& name) : state_(std::make_unique<State>(name)) {}
+ImageOutput::~ImageOutput() = default;
+ImageOutput::ImageOutput(ImageOutput&&) noexcept = default;
+const fs::path& ImageOutput::path() const { return state_->path; }
+
+void ImageOutput::write(const Framebuffer& frame, const std::optional<ValueRange>& range, const ImageFacts& facts) {
+  const auto channels = channelsOf(frame);
+  if (channels.empty()) fail(fmt::format("{}: the frame holds nothing to write", path().string()));
+  if (state_->format == Format::kPng) {
+    const Picture picture = makePicture(frame, range);
+    state_->write(pngHeader(frame.width, frame.height, picture.channels, facts),
+                  [&](std::uint32_t begin, std::uint32_t end, std::byte* out) {
+                    picture.pixels(std::size_t{begin} * frame.width, std::size_t{end} * frame.width,
+                                   reinterpret_cast<std::uint8_t*>(out));
+                  });
+    return;
+  }
+  imageio::Header header{frame.width, frame.height, {}, facts};
+  for (const auto& channel : channels) header.channels.push_back({channel.name, channel.type, kChannelBytes});
+  state_->write(header, [&](std::uint32_t begin, std::uint32_t end, std::byte* out) {
+    for (std::size_t k = std::size_t{begin} * frame.width; k < std::size_t{end} * frame.width; ++k) {
+      for (const auto& channel : channels) {
+        std::memcpy(out, channel.data + k * channel.stride, kChannelBytes);
+        out += kChannelBytes;
+      }
+    }
+  });
+}
+
+void ImageOutput::write(std::uint32_t width, std::uint32_t height, const ColourRows& rows, const ImageFacts& facts) {
+  std::vector<glm::vec3> colours;
+  const auto make = [&](std::uint32_t begin, std::uint32_t end) {
+    colours.resize(std::size_t{end - begin} * width);
+    rows(begin, end, colours.data());
+  };
+  if (state_->format == Format::kPng) {
+    state_->write(pngHeader(width, height, 3, facts), [&](std::uint32_t begin, std::uint32_t end, std::byte* out) {
+      make(begin, end);
+      auto* next = reinterpret_cast<std::uint8_t*>(out);
+      for (const glm::vec3& colour : colours) next = putSrgb(colour, next);
+    });
+    return;
+  }
+  imageio::Header header{width, height, {}, facts};
+  for (const char* name : {"R", "G", "B"}) header.channels.push_back({name, "float", kChannelBytes});
+  state_->write(header, [&](std::uint32_t begin, std::uint32_t end, std::byte* out) {
+    make(begin, end);
+    std::memcpy(out, colours.data(), colours.size() * sizeof(glm::vec3));
+  });
+}
+
+void writeImage(const fs::path& path, const Framebuffer& frame, const std::optional<ValueRange>& range,
+                const ImageFacts& facts) {
+  ImageOutput(path.string()).write(frame, range, facts);
+}
+
+struct ImageReader::State {
+  std::string name;
+  std::unique_ptr<imageio::Reader> file;
+  std::vector<std::byte> rows;
+  std::size_t pixelBytes = 0;
+  bool ids = false, depth = false, hits = false, attribute = false, colour = false;
+
+  // Where a channel lies in a pixel.
+  std::size_t offsetOf(std::string_view channel) const {
+    std::size_t offset = 0;
+    for (const auto& c : file->header().channels) {
+      if (c.name == channel) break;
+      offset += c.bytes;
+    }
+    return offset;
+  }
+  // Whether the file has the channel. Throws if it has another type.
+  bool has(const char* channel, std::string_view type) const {
+    for (const auto& c : file->header().channels) {
+      if (c.name != channel) continue;
+      if (c.type != type) failUsage(fmt::format("{}: channel {} is {}, it should be {}", name, channel, c.type, type));
+      return true;
+    }
+    return false;
+  }
+};
+
+ImageReader::ImageReader(const fs::path& path, std::uint64_t limit) : state_(std::make_unique<State>()) {
+  State& s = *state_;
+  s.name = path.string();
+  std::error_code error;
+  if (extensionOf(path) != ".exr") failUsage(fmt::format("{}: only an .exr holds ids and depth", s.name));
+  if (!fs::exists(path, error)) failUsage(fmt::format("{}: no such file", s.name));
+  if (fs::is_directory(path, error)) failUsage(fmt::format("{}: is a folder, not an image file", s.name));
+  checkExr(path, limit);
+  std::string why;
+  s.file = imageModule().openExr(s.name, why);
+  if (!s.file) failUsage(fmt::format("{}: not a whole OpenEXR file: {}", s.name, why));
+  s.ids = s.has("id", "uint");
+  s.depth = s.has("Z", "float");
+  s.hits = s.has("hits", "uint");
+  s.attribute = s.has("A", "float");
+  const bool red = s.has("R", "float"), green = s.has("G", "float"), blue = s.has("B", "float");
+  s.colour = red && green && blue;
+  if ((!s.ids || !s.depth) && !s.hits) {
+    std::vector<std::string> found;
+    for (const auto& channel : s.file->header().channels) found.push_back(channel.name);
+    failUsage(fmt::format("{}: holds channels {}; it should hold id and Z, or hits", s.name, fmt::join(found, ", ")));
+  }
+  for (const auto& channel : s.file->header().channels) s.pixelBytes += channel.bytes;
+}
+
+ImageReader::~ImageReader() = default;
+std::uint32_t ImageReader::width() const { return state_->file->header().width; }
+std::uint32_t ImageReader::height() const { return state_->file->header().height; }
+const ImageFacts& ImageReader::facts() const { return state_->file->header().text; }
+
+std::uint32_t ImageReader::bandRows() const {
+  const std::size_t row = std::size_t{width()} * state_->pixelBytes;
+  return static_cast<std::uint32_t>(std::clamp<std::size_t>(kBandBytes / row, 1, 4) * kRowsOfChunk);
+}
+
+void ImageReader::read(std::uint32_t begin, std::uint32_t end, Framebuffer& band) {
+  State& s = *state_;
+  band.width = width();
+  band.height = end - begin;
+  s.rows.resize(band.pixels() * s.pixelBytes);
+  const std::string why = s.file->read(begin, end, s.rows.data());
+  if (!why.empty()) failUsage(fmt::format("{}: not a whole OpenEXR file: {}", s.name, why));
+  band.ids.resize(s.ids ? band.pixels() : 0);
+  band.depth.resize(s.depth ? band.pixels() : 0);
+  band.hits.resize(s.hits ? band.pixels() : 0);
+  band.attribute.resize(s.attribute ? band.pixels() : 0);
+  band.colour.resize(s.colour ? band.pixels() : 0);
+  for (const auto& channel : channelsOf(band)) {
+    const std::byte* from = s.rows.data() + s.offsetOf(channel.name);
+    for (std::size_t k = 0; k < band.pixels(); ++k, from += s.pixelBytes)
+      std::memcpy(channel.data + k * channel.stride, from, kChannelBytes);
+  }
+}
+
+Framebuffer readImage(const fs::path& path, std::uint64_t limit) {
+  ImageReader reader(path, limit);
+  Framebuffer frame, band;
+  frame.width = reader.width();
+  frame.height = reader.height();
+  const auto add = [&](auto& to, const auto& from) {
+    if (to.empty() && !from.empty()) to.reserve(frame.pixels());  // taken as it is filled
+    to.insert(to.end(), from.begin(), from.end());
+  };
+  for (std::uint32_t begin = 0; begin < frame.height; begin += reader.bandRows()) {
+    reader.read(begin, std::min(frame.height, begin + reader.bandRows()), band);
+    add(frame.ids, band.ids);
+    add(frame.depth, band.depth);
+    add(frame.hits, band.hits);
+    add(frame.attribute, band.attribute);
+    add(frame.colour, band.colour);
+  }
+  return frame;
+}
+
+}  // namespace tessera

@@ -1,0 +1,74 @@
+// The oracle: the contract of rasterizer.h in plain loops and 128-bit integers, one triangle and one pixel at a time.
+// It shares no code with slang/ and includes nothing of the pipeline; it is written to be read beside the contract.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <tessera/framebuffer.h>
+#include <tessera/scene.h>
+
+namespace tessera::reference {
+
+/// The image-defining axes. Further values join here as the axes of variant.h gain them.
+enum class Cull { kNone, kBack, kFront };
+enum class Fill { kTopLeft, kInclusive };
+enum class Interpolate { kCellPlane, kPlane, kWeights };
+struct Image {
+  Cull cull = Cull::kNone;
+  Fill fill = Fill::kTopLeft;
+  Interpolate interpolate = Interpolate::kCellPlane;
+  int subPixelBits = 8;  ///< 0, 4, 6 or 8
+};
+
+/// One oriented, snapped piece, as it enters coverage. Positions in 1/256 pixel.
+struct Piece {
+  std::uint32_t id;
+  std::int32_t x[3], y[3];
+  float z[3];
+};
+
+/// A triangle is in at most one of badIndex, nonFinite and outside; a piece in at most one of behind, zeroArea and
+/// facing.
+struct Counts {
+  std::uint64_t submitted = 0;  ///< triangles
+  std::uint64_t badIndex = 0;   ///< triangles with an index out of range
+  std::uint64_t nonFinite = 0;  ///< triangles with a clip coordinate that is not finite
+  std::uint64_t outside = 0;    ///< triangles of which nothing is inside the clip planes
+  std::uint64_t clipped = 0;    ///< triangles with a vertex outside a clip plane, those of `outside` among them
+  std::uint64_t behind =
+      0;  ///< pieces with a w that is not > 0, a 1/w that is not finite, or a position that overflowed
+  std::uint64_t zeroArea = 0;  ///< pieces
+  std::uint64_t facing = 0;    ///< pieces
+  std::uint64_t covered = 0;   ///< samples, each hit counted
+};
+
+struct Result {
+  Framebuffer image;  ///< depth, ids and hits, and values where the scene has some; in the contract's float32 order
+  Counts counts;
+  double depthMaxAbs = 0;  ///< largest |float32 depth - exact depth of the snapped piece| over the visible pixels
+  double depthMaxUlp = 0;  ///< the same in units of the last place of the exact value
+};
+
+/// float32 clip positions of a scene by the contract's transform, or its given ones.
+std::vector<glm::vec4> transform(const Scene& scene);
+/// Pieces of all triangles, in id order, by the contract's clip, projection, snap and orientation.
+std::vector<Piece> pieces(const Scene& scene, const Image& image, Counts* counts = nullptr);
+/// `measureDepth` also fills depthMaxAbs and depthMaxUlp (slower).
+Result render(const Scene& scene, const Image& image = {}, bool measureDepth = false);
+
+/// Values of a frame whose ids are there: the scene's attribute by the contract, in its float32 order. Replaces
+/// frame.attribute.
+void interpolate(const Scene& scene, const Image& image, Framebuffer& frame);
+
+/// |A - exact value| over the pixels of a frame that show a triangle with finite values, in the attribute's units.
+/// Exact is the contract's section Attributes in real numbers: the linear interpolation over the snapped triangle, or
+/// the perspective-correct one over the triangle in clip space, right to about 2^-100 of its terms.
+struct AttributeError {
+  double max = 0, rms = 0;
+  std::uint64_t pixels = 0;  ///< that were measured
+};
+AttributeError attributeError(const Scene& scene, const Image& image, const Framebuffer& frame);
+
+}  // namespace tessera::reference

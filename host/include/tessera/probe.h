@@ -1,0 +1,42 @@
+// Does this device's arithmetic give the contract's bits? A short test at start-up; parity is claimed only where it
+// passes.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <tessera/device.h>
+
+namespace tessera {
+
+class KernelCache;
+
+struct ProbeResult {
+  std::string name;  ///< add, subtract, multiply, divide, square-root, floor, denormals, contraction, uint-to-float,
+                     ///< two-word-to-float, int64-to-float, float-to-int, loop-limit ...
+  bool required = true;  ///< parity needs it (loop-limit is information)
+  bool passed = false;
+  std::string detail;  ///< first failing input with both bit patterns, or the figure found
+};
+struct Probe {
+  std::vector<ProbeResult> results;
+  bool passed() const {
+    for (const auto& r : results)
+      if (r.required && !r.passed) return false;
+    return true;
+  }
+  /// Whether it does not pass for one reason: the device flushes denormals (floats below 1.2e-38) to zero, as Vulkan
+  /// allows. Where a scene's arithmetic meets none its bits are the contract's.
+  bool onlyFlushes() const;
+};
+
+/// Runs slang/probe.slang on the device and compares each result with the host's, bit for bit, over edge values and
+/// seeded random inputs (denormals, infinities and NaN among them where the contract can meet them). `route`: kSpirv or
+/// kGlsl on a Vulkan device.
+Probe probeDevice(Device& device, KernelCache& kernels, Route route);
+
+/// Its part about 64-bit integers, native where the device has them and as two words, over as many random inputs.
+Probe probeWide(Device& device, KernelCache& kernels, Route route, std::uint32_t randomInputs);
+
+}  // namespace tessera

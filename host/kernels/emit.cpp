@@ -1,0 +1,66 @@
+#include "host/kernels/emit.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include <tessera/error.h>
+#include "host/support/files.h"
+#include "host/kernels/slang-compiler.h"
+#include "host/kernels/slang-sources.h"
+#include "host/support/suggest.h"
+
+namespace tessera {
+namespace {
+
+DeviceInfo machine(const char* name, const char* api = "vulkan") {
+  DeviceInfo device;
+  device.api = api;
+  device.name = name;
+  return device;
+}
+
+/// WGSL has 32-bit scalars only, and a WebGPU device need not give a group more than 16 KiB
+/// (maxComputeWorkgroupStorageSize).
+DeviceInfo webgpu() {
+  DeviceInfo device = machine("WGSL");
+  device.int64 = device.float64 = device.atomicMin64 = false;
+  device.maxGroupBytes = 16384;
+  return device;
+}
+
+}  // namespace
+
+const std::vector<EmitTarget>& emitTargets() {
+  static const std::vector<EmitTarget> list{
+      {"spirv", "spv", Route::kSpirv, machine("SPIR-V")}, {"glsl", "comp", Route::kGlsl, machine("GLSL")},
+      {"cpp", "cpp", Route::kCpp, machine("C++", "cpu")}, {"wgsl", "wgsl", Route::kSpirv, webgpu()},
+      {"hlsl", "hlsl", Route::kSpirv, machine("HLSL")},   {"metal", "metal", Route::kSpirv, machine("Metal")},
+      {"cuda", "cu", Route::kSpirv, machine("CUDA")}};
+  return list;
+}
+
+const EmitTarget& emitTarget(std::string_view name) {
+  const auto found = std::ranges::find(emitTargets(), name, &EmitTarget::name);
+  if (found != emitTargets().end()) return *found;
+  failUsage(
+      fmt::format("--emit {}: no such target; {}", name, whatThereIs(name, namesOf(emitTargets(), &EmitTarget::name))));
+}
+
+Emitted emitKernel(KernelCache& cache, const KernelRequest& request, const EmitTarget& target) {
+  Emitted emitted{request.stage, "", "", ""};
+  try {
+    Written written = writtenBySlang(request, target.name, cache.slangc(), cache.sourcesFolder());
+    emitted.bytes = target.name == "spirv" ? readText(cache.get(request).binary)  // the very module that runs
+                                           : std::move(written.text);
+    emitted.reflection = std::move(written.reflection);
+  } catch (const WriteError&) {
+    throw;
+  } catch (const Error& error) {
+    emitted.complaint = error.what();
+  }
+  return emitted;
+}
+
+}  // namespace tessera

@@ -1,0 +1,153 @@
+// The contract's section Attributes, in float32 and exactly.
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "host/oracle/reference-clip.h"
+#include "host/oracle/reference-exact.h"
+#include "host/oracle/reference-project.h"
+#include <tessera/oracle.h>
+
+namespace tessera::reference {
+namespace {
+
+const float kNoValue = std::bit_cast<float>(0x7fc00000u);
+
+template <typename T>
+using Three = std::array<T, 3>;
+
+// The values of one triangle.
+class Values {
+ public:
+  Values(const Scene& scene, const Image& image, const std::vector<glm::vec4>& vertices, std::uint32_t id)
+      : halfWidth_(static_cast<float>(scene.width) / 2), halfHeight_(static_cast<float>(scene.height) / 2) {
+    for (int k = 0; k < 3; ++k) {
+      const std::uint32_t vertex = scene.triangles[id][k];
+      value_[k] = scene.attribute[vertex];
+      clip_[k] = vertices[vertex];
+    }
+    finite_ = std::ranges::all_of(value_, [](float a) { return std::isfinite(a); });
+    const bool oneW = clip_[0].w == clip_[1].w && clip_[0].w == clip_[2].w;
+    if (!oneW || clip(clip_, scene.width, scene.height).outsideSome) return;
+    linear_.emplace(Piece{id, {}, {}, {}});
+    for (int k = 0; k < 3; ++k) {
+      const Snapped corner = project(clip_[k], scene, image).value();
+      linear_->x[k] = corner.x;
+      linear_->y[k] = corner.y;
+    }
+  }
+
+  bool finite() const { return finite_; }
+
+  float at(std::int64_t i, std::int64_t j) const {
+    if (!finite_) return kNoValue;
+    const Three<float> w = linear_ ? onScreen(i, j) : homogeneous(i, j);
+    const float a = (w[0] * value_[0] + w[1] * value_[1]) + w[2] * value_[2];
+    const float least = *std::ranges::min_element(value_), most = *std::ranges::max_element(value_);
+    const float atLeast = a > least ? a : least;
+    return atLeast < most ? atLeast : most;
+  }
+
+  Exact exactAt(std::int64_t i, std::int64_t j) const {
+    const Three<Exact> w = linear_ ? exactOnScreen(i, j) : exactHomogeneous(i, j);
+    return (w[0] * value_[0] + w[1] * value_[1] + w[2] * value_[2]) / (w[0] + w[1] + w[2]);
+  }
+
+ private:
+  Wide edgeAgainst(int k, std::int64_t i, std::int64_t j) const {
+    return edge(*linear_, (k + 1) % 3, (k + 2) % 3, sampleAt(i), sampleAt(j));
+  }
+
+  Three<float> onScreen(std::int64_t i, std::int64_t j) const {
+    const float area2 = static_cast<float>(edge(*linear_, 0, 1, linear_->x[2], linear_->y[2]));
+    Three<float> w;
+    for (int k = 0; k < 3; ++k) w[k] = static_cast<float>(edgeAgainst(k, i, j)) / area2;
+    return w;
+  }
+
+  Three<Exact> exactOnScreen(std::int64_t i, std::int64_t j) const {
+    Three<Exact> w;
+    for (int k = 0; k < 3; ++k) w[k] = static_cast<Exact>(edgeAgainst(k, i, j));
+    return w;
+  }
+
+  // Not yet divided by their sum; 1, 0, 0 where that is 0 or NaN.
+  template <typename T>
+  Three<T> weights(std::int64_t i, std::int64_t j) const {
+    const T halfWidth = halfWidth_, halfHeight = halfHeight_, half = 0.5f;
+    const T px = ((static_cast<T>(i) + half) - halfWidth) / halfWidth;
+    const T py = ((static_cast<T>(j) + half) - halfHeight) / halfHeight;
+    Three<T> x, y, u;
+    for (int k = 0; k < 3; ++k) {
+      x[k] = static_cast<T>(clip_[k].x) - px * static_cast<T>(clip_[k].w);
+      y[k] = static_cast<T>(clip_[k].y) - py * static_cast<T>(clip_[k].w);
+    }
+    for (int k = 0; k < 3; ++k) {
+      const int a = (k + 1) % 3, b = (k + 2) % 3;
+      u[k] = x[a] * y[b] - x[b] * y[a];
+    }
+    const bool turned = (u[0] + u[1]) + u[2] < 0;
+    for (T& w : u) {
+      if (turned) w = -w;
+      w = w > 0 ? w : T{0};
+    }
+    return (u[0] + u[1]) + u[2] > 0 ? u : Three<T>{T{1}, T{0}, T{0}};
+  }
+
+  Three<float> homogeneous(std::int64_t i, std::int64_t j) const {
+    Three<float> w = weights<float>(i, j);
+    const float sum = (w[0] + w[1]) + w[2];
+    for (float& value : w) value = value / sum;
+    return w;
+  }
+
+  Three<Exact> exactHomogeneous(std::int64_t i, std::int64_t j) const { return weights<Exact>(i, j); }
+
+  float halfWidth_, halfHeight_;
+  Three<float> value_{};
+  std::array<glm::vec4, 3> clip_{};
+  bool finite_ = true;
+  std::optional<Piece> linear_;  // snapped, as its vertices come; nothing where weights are homogeneous
+};
+
+// Calls use(k, values, i, j) for each covered pixel k = (i, j).
+template <typename Use>
+void eachPixel(const Scene& scene, const Image& image, const Framebuffer& frame, Use use) {
+  const std::vector<glm::vec4> vertices = transform(scene);
+  std::optional<Values> values;
+  std::uint32_t id = kNoTriangle;
+  for (std::size_t k = 0; k < frame.ids.size(); ++k) {
+    if (frame.ids[k] >= scene.triangles.size()) continue;
+    if (frame.ids[k] != id) values.emplace(scene, image, vertices, id = frame.ids[k]);
+    use(k, *values, static_cast<std::int64_t>(k % frame.width), static_cast<std::int64_t>(k / frame.width));
+  }
+}
+
+}  // namespace
+
+void interpolate(const Scene& scene, const Image& image, Framebuffer& frame) {
+  frame.attribute.assign(frame.ids.size(), kNoValue);
+  eachPixel(scene, image, frame, [&](std::size_t k, const Values& values, std::int64_t i, std::int64_t j) {
+    frame.attribute[k] = values.at(i, j);
+  });
+}
+
+AttributeError attributeError(const Scene& scene, const Image& image, const Framebuffer& frame) {
+  AttributeError error;
+  double squares = 0;
+  eachPixel(scene, image, frame, [&](std::size_t k, const Values& values, std::int64_t i, std::int64_t j) {
+    if (!values.finite()) return;
+    double apart = std::abs(static_cast<double>(static_cast<Exact>(frame.attribute[k]) - values.exactAt(i, j)));
+    if (std::isnan(apart)) apart = std::numeric_limits<double>::infinity();
+    error.max = std::max(error.max, apart);
+    squares += apart * apart;
+    ++error.pixels;
+  });
+  if (error.pixels != 0) error.rms = std::sqrt(squares / static_cast<double>(error.pixels));
+  return error;
+}
+
+}  // namespace tessera::reference

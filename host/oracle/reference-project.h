@@ -1,0 +1,20 @@
+// The contract's sections Project and Snap.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec4.hpp>
+#include <optional>
+
+#include <tessera/oracle.h>
+
+namespace tessera::reference {
+
+struct Snapped {
+  std::int32_t x, y;  ///< 1/256 pixel, |.| <= 2^24
+  float z;
+};
+
+/// Of a finite clip-space position. Nothing where the contract counts the piece as behind.
+std::optional<Snapped> project(const glm::vec4& v, const Scene& scene, const Image& image);
+
+}  // namespace tessera::reference
