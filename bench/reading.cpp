@@ -2,6 +2,7 @@
 // are 200 MB/s for text and 1 GB/s for binary files; the label says whether a format is over its bar here.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
+#include <tessera/input.h>
 
 #include <algorithm>
 #include <bit>
@@ -10,7 +11,6 @@
 #include <fstream>
 #include <iterator>
 
-#include <tessera/input.h>
 #include "datasets/mesh-formats.h"
 #include "datasets/normals.h"
 #include "datasets/text.h"

@@ -2,14 +2,14 @@
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
+#include <tessera/error.h>
+#include <tessera/input.h>
 
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
 
-#include <tessera/input.h>
 #include "host/build-info.h"
-#include <tessera/error.h>
 
 namespace tessera::bench {
 

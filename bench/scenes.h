@@ -1,14 +1,14 @@
 // What the benchmarks render, and what they say about this build and machine.
 #pragma once
 
+#include <tessera/device.h>
+#include <tessera/kernel-cache.h>
+#include <tessera/scene.h>
+
 #include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
-
-#include <tessera/device.h>
-#include <tessera/kernel-cache.h>
-#include <tessera/scene.h>
 
 namespace tessera::bench {
 

@@ -1,5 +1,7 @@
 // Stages, each on scenes that give it work: the time that the device took for its dispatches, in whole frames.
 #include <fmt/format.h>
+#include <tessera/input.h>
+#include <tessera/oracle.h>
 
 #include <algorithm>
 #include <sstream>
@@ -8,8 +10,6 @@
 
 #include "bench/scenes.h"
 #include "bench/suite.h"
-#include <tessera/input.h>
-#include <tessera/oracle.h>
 
 namespace {
 

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "host/cli/table.h"
+#include "host/support/table.h"
 
 extern char** environ;
 
@@ -81,6 +81,6 @@ int main(int argc, char** argv) {
   }
   std::vector<std::vector<std::string>> rows{{"command", "wall, ms", "processor, ms", "bar, ms"}};
   for (const auto& job : jobs) rows.push_back({job.name, quartiles(job.wall), quartiles(job.processor), job.bar});
-  fmt::print("{}{} rounds in turns; median (quartiles)\n", tessera::cli::table(rows), rounds);
+  fmt::print("{}{} rounds in turns; median (quartiles)\n", tessera::table(rows), rounds);
   for (const char* const extension : {".png", ".exr"}) std::filesystem::remove(picture + extension);
 }

@@ -1,15 +1,15 @@
 #include "bench/suite.h"
 
 #include <fmt/format.h>
+#include <tessera/cpu-device.h>
+#include <tessera/error.h>
+#include <tessera/vulkan-device.h>
 
 #include <algorithm>
 #include <string_view>
 
 #include "bench/scenes.h"
-#include <tessera/cpu-device.h>
-#include <tessera/error.h>
 #include "host/support/terminal.h"
-#include <tessera/vulkan-device.h>
 
 namespace tessera::bench {
 namespace {

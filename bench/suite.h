@@ -2,12 +2,11 @@
 #pragma once
 
 #include <benchmark/benchmark.h>
+#include <tessera/kernel-cache.h>
+#include <tessera/rasterizer.h>
 
 #include <functional>
 #include <memory>
-
-#include <tessera/kernel-cache.h>
-#include <tessera/rasterizer.h>
 
 namespace tessera::bench {
 

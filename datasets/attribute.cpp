@@ -1,8 +1,8 @@
 #include "datasets/attribute.h"
 
 #include <fmt/format.h>
-
 #include <tessera/error.h>
+
 #include "host/support/suggest.h"
 
 namespace tessera {

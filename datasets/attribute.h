@@ -1,9 +1,9 @@
 #pragma once
 
+#include <tessera/input.h>
+
 #include <string>
 #include <vector>
-
-#include <tessera/input.h>
 
 namespace tessera {
 

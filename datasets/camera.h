@@ -1,8 +1,8 @@
 #pragma once
 
-#include <glm/vec3.hpp>
-
 #include <tessera/input.h>
+
+#include <glm/vec3.hpp>
 
 namespace tessera {
 

@@ -1,11 +1,11 @@
 // Which vertices of a scene count, and where its coordinates begin.
 #pragma once
 
+#include <tessera/scene.h>
+
 #include <glm/vec3.hpp>
 #include <limits>
 #include <vector>
-
-#include <tessera/scene.h>
 
 namespace tessera {
 

@@ -1,7 +1,6 @@
 #include "datasets/faces.h"
 
 #include <fmt/format.h>
-
 #include <tessera/error.h>
 
 namespace tessera {

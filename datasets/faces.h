@@ -1,11 +1,11 @@
 // Faces of a file as triangles.
 #pragma once
 
+#include <tessera/input.h>
+
 #include <cstdint>
 #include <span>
 #include <vector>
-
-#include <tessera/input.h>
 
 namespace tessera {
 

@@ -1,12 +1,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <tessera/error.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "datasets/generators.h"
 #include "datasets/text.h"
-#include <tessera/error.h>
 #include "host/support/suggest.h"
 
 namespace tessera {

@@ -2,12 +2,12 @@
 // bits on every machine, whatever its mathematics library.
 #pragma once
 
+#include <tessera/input.h>
+
 #include <glm/vec2.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include <tessera/input.h>
 
 namespace tessera {
 

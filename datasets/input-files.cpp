@@ -4,6 +4,7 @@
 
 #include "datasets/installed-mesh.h"
 #include "datasets/text.h"
+#include "host/support/text.h"
 
 namespace tessera {
 namespace {

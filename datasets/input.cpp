@@ -1,6 +1,6 @@
-#include <tessera/input.h>
-
 #include <fmt/format.h>
+#include <tessera/error.h>
+#include <tessera/input.h>
 
 #include "datasets/attribute.h"
 #include "datasets/generators.h"
@@ -8,7 +8,7 @@
 #include "datasets/placing.h"
 #include "datasets/scene-file.h"
 #include "datasets/text.h"
-#include <tessera/error.h>
+#include "host/support/text.h"
 
 namespace tessera {
 namespace {

@@ -2,13 +2,12 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <tessera/error.h>
 
 #include <algorithm>
 #include <system_error>
 
 #include "datasets/text.h"
-#include "host/kernels/compiler-tools.h"
-#include <tessera/error.h>
 #include "host/support/files.h"
 #include "host/support/own-files.h"
 #include "host/support/subprocess.h"

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <tessera/input.h>
+
 #include "datasets/scanner.h"
 #include "datasets/text.h"
 

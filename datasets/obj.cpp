@@ -2,6 +2,7 @@
 // and surfaces, which are named in a note.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <tessera/error.h>
 
 #include <algorithm>
 #include <bit>
@@ -11,7 +12,6 @@
 #include "datasets/faces.h"
 #include "datasets/mesh-formats.h"
 #include "datasets/text.h"
-#include <tessera/error.h>
 
 namespace tessera {
 namespace {

@@ -1,5 +1,6 @@
 // OFF: "OFF" with prefixes, the counts, then vertices and faces (Geomview's object file format).
 #include <fmt/format.h>
+#include <tessera/error.h>
 
 #include <algorithm>
 
@@ -7,7 +8,6 @@
 #include "datasets/huge-pages.h"
 #include "datasets/mesh-formats.h"
 #include "datasets/text.h"
-#include <tessera/error.h>
 
 namespace tessera {
 namespace {

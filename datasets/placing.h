@@ -1,10 +1,11 @@
 #pragma once
 
+#include <tessera/input.h>
+
 #include <optional>
 #include <string>
 #include <vector>
 
-#include <tessera/input.h>
 #include "host/support/matrix.h"
 
 namespace tessera {

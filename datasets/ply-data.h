@@ -3,6 +3,7 @@
 #pragma once
 
 #include <fmt/format.h>
+#include <tessera/error.h>
 
 #include <algorithm>
 #include <array>
@@ -14,7 +15,6 @@
 
 #include "datasets/ply-header.h"
 #include "datasets/text.h"
-#include <tessera/error.h>
 
 namespace tessera {
 

@@ -1,10 +1,11 @@
 #include <fmt/format.h>
+#include <tessera/error.h>
 
 #include "datasets/attribute.h"
 #include "datasets/mesh-formats.h"
 #include "datasets/normals.h"
 #include "datasets/text.h"
-#include <tessera/error.h>
+#include "host/support/text.h"
 
 namespace tessera {
 

@@ -9,16 +9,16 @@
 //     attribute NAME             where there is one: then a line a vertex: its value as 8 hexadecimal digits
 //     end
 #include <fmt/format.h>
+#include <tessera/error.h>
+#include <tessera/input.h>
 
 #include <algorithm>
 #include <bit>
 #include <charconv>
 #include <iterator>
 
-#include <tessera/input.h>
 #include "datasets/scanner.h"
 #include "datasets/text.h"
-#include <tessera/error.h>
 #include "host/support/files.h"
 
 namespace tessera {

@@ -1,12 +1,12 @@
 #include "datasets/scanner.h"
 
 #include <fmt/format.h>
+#include <tessera/error.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "datasets/text.h"
-#include <tessera/error.h>
 
 namespace tessera {
 namespace {

@@ -2,12 +2,13 @@
 // is read by it: a line ends with LF, CR or CR LF, in any mixture.
 #pragma once
 
+#include <tessera/input.h>
+
 #include <array>
 #include <cstdint>
 #include <string>
 #include <string_view>
 
-#include <tessera/input.h>
 #include "datasets/numbers.h"
 
 namespace tessera {

@@ -1,6 +1,7 @@
 #include "datasets/scene-file.h"
 
 #include <fmt/format.h>
+#include <tessera/error.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +13,6 @@
 #include "datasets/placing.h"
 #include "datasets/text.h"
 #include "datasets/toml-table.h"
-#include <tessera/error.h>
 
 namespace tessera {
 namespace {

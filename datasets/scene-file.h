@@ -1,8 +1,8 @@
 #pragma once
 
-#include <filesystem>
-
 #include <tessera/input.h>
+
+#include <filesystem>
 
 namespace tessera {
 

@@ -1,13 +1,12 @@
 #include <fmt/format.h>
 #include <openssl/evp.h>
+#include <tessera/error.h>
+#include <tessera/input.h>
 
 #include <array>
 #include <bit>
 #include <memory>
 #include <span>
-
-#include <tessera/input.h>
-#include <tessera/error.h>
 
 namespace tessera {
 namespace {

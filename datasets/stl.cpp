@@ -1,6 +1,7 @@
 // STL, text or binary: facets in order; corners with the same bits share a vertex. The normals of the file are not
 // taken: they belong to facets.
 #include <fmt/format.h>
+#include <tessera/error.h>
 
 #include <algorithm>
 #include <bit>
@@ -9,7 +10,7 @@
 #include "datasets/bits-table.h"
 #include "datasets/mesh-formats.h"
 #include "datasets/text.h"
-#include <tessera/error.h>
+#include "host/support/text.h"
 
 namespace tessera {
 namespace {

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
+#include <tessera/error.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -11,7 +12,6 @@
 #include <new>
 
 #include "datasets/huge-pages.h"
-#include <tessera/error.h>
 
 namespace tessera {
 
@@ -75,13 +75,6 @@ std::string_view plainText(const std::string& name, std::string_view text) {
       text.starts_with("\xff\xfe"sv) || text.starts_with("\xfe\xff"sv) || text.starts_with("\0\0\xfe\xff"sv);
   if (wide) failUsage(fmt::format("{}: is UTF-16 or UTF-32; UTF-8 would be right", name));
   return text.substr(text.starts_with("\xef\xbb\xbf"sv) ? 3 : 0);
-}
-
-std::string lowerCase(std::string_view text) {
-  std::string lower(text);
-  for (char& c : lower)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return lower;
 }
 
 std::string shown(std::string_view word) {

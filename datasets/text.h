@@ -52,9 +52,6 @@ std::string readFile(const std::filesystem::path& path);
 /// The text without a byte order mark of UTF-8. Throws kUsage for UTF-16 and UTF-32.
 std::string_view plainText(const std::string& name, std::string_view text);
 
-/// ASCII letters made small.
-std::string lowerCase(std::string_view text);
-
 /// A word of a file as a message shows it: in quotes, cut where it is long, without control characters.
 std::string shown(std::string_view word);
 

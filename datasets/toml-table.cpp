@@ -1,13 +1,13 @@
 #include "datasets/toml-table.h"
 
 #include <fmt/format.h>
+#include <tessera/error.h>
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "datasets/text.h"
-#include <tessera/error.h>
 #include "host/support/suggest.h"
 
 namespace tessera {

@@ -65,6 +65,6 @@ done
 reported=()
 for name in "${all[@]}"; do [[ ! -f $out/$name/rows.jsonl ]] || reported+=("$name"); done
 if ((${#reported[@]})); then
-  "$python" -B "$here/report/index.py" "$out" "${reported[@]}" --schema "$(sed -n 's/.*kRowSchemaVersion = \([0-9]*\);/\1/p' "$here/../host/row.h")"
+  "$python" -B "$here/report/index.py" "$out" "${reported[@]}" --schema "$(sed -n 's/.*kRowSchemaVersion = \([0-9]*\);/\1/p' "$here/../host/measure/row.h")"
 fi
 ((${#failed[@]} == 0)) || { say "failed: ${failed[*]}"; exit 5; }

@@ -1,6 +1,8 @@
 // The CPU device against lavapipe's own graphics pipeline, on the same cores of the same machine in the same minutes: rounds in which
 // both render each scene, in turn. The draw is given vertices in clip space; the CPU device transforms them within its time.
 #include <fmt/format.h>
+#include <tessera/cpu-device.h>
+#include <tessera/error.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -10,10 +12,8 @@
 
 #include "bench/compare/measure.h"
 #include "bench/draw-baseline/draw.h"
-#include <tessera/cpu-device.h>
-#include <tessera/error.h>
-#include "host/support/files.h"
 #include "host/measure/row.h"
+#include "host/support/files.h"
 #include "host/support/terminal.h"
 
 namespace {

@@ -1,13 +1,14 @@
 // What is measured for one scene, and for memory.
 #pragma once
 
+#include <tessera/image.h>
+#include <tessera/rasterizer.h>
+
 #include <cstdint>
 #include <string>
 #include <vector>
 
 #include "bench/scenes.h"
-#include <tessera/image.h>
-#include <tessera/rasterizer.h>
 
 namespace tessera::bench {
 

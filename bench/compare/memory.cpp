@@ -1,12 +1,12 @@
 #include <fmt/format.h>
+#include <tessera/cpu-device.h>
+#include <tessera/error.h>
 
 #include <algorithm>
 #include <fstream>
 #include <sstream>
 
 #include "bench/compare/measure.h"
-#include <tessera/cpu-device.h>
-#include <tessera/error.h>
 #include "host/support/subprocess.h"
 
 namespace tessera::bench {

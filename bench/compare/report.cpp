@@ -4,14 +4,12 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/compare/measure.h"
-#include "host/cli/table.h"
 #include "host/measure/row.h"
+#include "host/support/table.h"
 
 namespace tessera::bench {
 namespace {
 
-using cli::grouped;
-using cli::milliseconds;
 using Json = nlohmann::ordered_json;
 using Rows = std::vector<std::vector<std::string>>;
 
@@ -55,7 +53,7 @@ std::string text(const Report& report) {
                      fmt::format("{:.3f}", ratio(totals(c.again), totals(c.cpu)).median), fmt::format("{:.1f}", noise(c)),
                      grouped(c.difference.coverage), grouped(c.difference.id)});
   }
-  out += cli::table(times);
+  out += table(times);
   if (!report.comparisons.empty())
     out += fmt::format("median ± half the interquartile range of {} rounds; A/A: the CPU device by itself, measured twice a round\n\n",
                        report.comparisons[0].cpu.size());
@@ -73,11 +71,11 @@ std::string text(const Report& report) {
       row->push_back(found == medians.end() ? "-" : milliseconds(found->second));
     }
   }
-  if (!report.comparisons.empty()) out += cli::table(stages) + "\n";
+  if (!report.comparisons.empty()) out += table(stages) + "\n";
 
   Rows memory{{"memory of one frame, MB", "peak of the process", "peak of the device's buffers"}};
   for (const Memory& m : report.memory) memory.push_back({m.scene, megabytes(m.peakResident), megabytes(m.peakBuffers)});
-  return out + cli::table(memory);
+  return out + table(memory);
 }
 
 std::string json(const Report& report, bool raw) {

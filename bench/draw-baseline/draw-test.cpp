@@ -2,11 +2,11 @@
 // pixels.
 #include "bench/draw-baseline/draw.h"
 
-#include <catch2/catch.hpp>
-#include <random>
-
 #include <tessera/error.h>
 #include <tessera/oracle.h>
+
+#include <catch2/catch.hpp>
+#include <random>
 
 using namespace tessera;
 

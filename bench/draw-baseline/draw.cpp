@@ -1,6 +1,7 @@
 #include "bench/draw-baseline/draw.h"
 
 #include <fmt/format.h>
+#include <tessera/oracle.h>
 
 #include <algorithm>
 #include <array>
@@ -9,7 +10,6 @@
 
 #include "draw-frag.h"  // from draw.frag and draw.vert, by glslangValidator
 #include "draw-vert.h"
-#include <tessera/oracle.h>
 #include "host/devices/vulkan/memory.h"
 
 namespace tessera {

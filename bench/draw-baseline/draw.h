@@ -3,12 +3,12 @@
 // depth are the driver's own.
 #pragma once
 
+#include <tessera/framebuffer.h>
+#include <tessera/scene.h>
+
 #include <cstdint>
 #include <memory>
 #include <string>
-
-#include <tessera/framebuffer.h>
-#include <tessera/scene.h>
 
 namespace tessera {
 

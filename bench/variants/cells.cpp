@@ -1,9 +1,9 @@
 #include "bench/variants/cells.h"
 
+#include <tessera/error.h>
+
 #include <algorithm>
 #include <map>
-
-#include <tessera/error.h>
 
 namespace tessera::bench {
 namespace {

@@ -1,13 +1,14 @@
 // What is measured: cells, each a choice of binning, traversal and commit, and the tables that they stand in.
 #pragma once
 
+#include <tessera/rasterizer.h>
+
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include <tessera/rasterizer.h>
 #include "host/measure/row.h"
 
 namespace tessera::bench {

@@ -4,14 +4,12 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/variants/cells.h"
-#include "host/cli/table.h"
 #include "host/plan/stages.h"
+#include "host/support/table.h"
 
 namespace tessera::bench {
 namespace {
 
-using cli::grouped;
-using cli::milliseconds;
 using Json = nlohmann::ordered_json;
 using Rows = std::vector<std::vector<std::string>>;
 
@@ -90,7 +88,7 @@ std::string text(const SceneCells& scene, const Limits& limits) {
       "{}, {} triangles: median times in ms, of the frame and of its stages; ratio: to the default's frame beside it\n"
       "(the first row is the default beside itself: how far its ratio is from 1 is the noise)\n{}\n"
       "what one frame counted\n{}",
-      scene.scene, grouped(scene.triangles), cli::table(times), cli::table(counts));
+      scene.scene, grouped(scene.triangles), table(times), table(counts));
 }
 
 std::string jsonLines(const Report& report, bool raw) {

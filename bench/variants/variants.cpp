@@ -2,6 +2,8 @@
 // frame next to one of the default's, on the CPU device, in one process. What a scene makes hopeless is printed with
 // the planner's reason.
 #include <fmt/format.h>
+#include <tessera/cpu-device.h>
+#include <tessera/error.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -11,11 +13,9 @@
 
 #include "bench/scenes.h"
 #include "bench/variants/cells.h"
-#include "host/cli/progress.h"
-#include <tessera/cpu-device.h>
-#include <tessera/error.h>
-#include "host/support/files.h"
 #include "host/plan/stages.h"
+#include "host/support/files.h"
+#include "host/support/progress.h"
 #include "host/support/terminal.h"
 
 namespace {
@@ -51,7 +51,7 @@ class Measurement {
 
   void run() {
     compile();
-    cli::Progress progress("variants: " + all_.scene, all_.cells.size() * (limits_.rounds + 1));
+    Progress progress("variants: " + all_.scene, all_.cells.size() * (limits_.rounds + 1));
     std::size_t done = 0;
     for (Cell& cell : all_.cells) {
       progress.at(done++, cell.asked.text());
@@ -77,7 +77,7 @@ class Measurement {
           asked.set("counters", counters);
           std::ranges::move(kernelRequests(makePlan(scene_, asked, device_), {}), std::back_inserter(requests));
         }
-    cli::Progress progress("variants: " + all_.scene + ": kernels", requests.size());
+    Progress progress("variants: " + all_.scene + ": kernels", requests.size());
     kernels_.getAll(requests, [&](std::size_t done, std::size_t) { progress.at(done); });
   }
 

@@ -1,11 +1,11 @@
 #include "experiments/harness/axis-values.h"
 
 #include <fmt/format.h>
+#include <tessera/error.h>
 
 #include <algorithm>
 
 #include "datasets/text.h"
-#include <tessera/error.h>
 #include "host/support/suggest.h"
 
 namespace tessera::harness {

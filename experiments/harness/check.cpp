@@ -1,21 +1,21 @@
 #include "experiments/harness/check.h"
 
 #include <fmt/format.h>
+#include <tessera/probe.h>
 
 #include <algorithm>
 #include <chrono>
 #include <utility>
 
-#include "host/cli/common.h"
-#include "host/cli/kernel-check.h"
-#include "host/cli/measure.h"
-#include "host/cli/probe-text.h"
-#include "host/cli/render-error.h"
-#include "host/cli/table.h"
+#include "host/devices/open.h"
 #include "host/images/comparison.h"
 #include "host/measure/image-facts.h"
-#include <tessera/probe.h>
+#include "host/measure/kernel-check.h"
+#include "host/measure/measure.h"
+#include "host/measure/probe-text.h"
+#include "host/measure/render-error.h"
 #include "host/plan/stages.h"
+#include "host/support/table.h"
 
 namespace tessera::harness {
 namespace {
@@ -51,22 +51,22 @@ Plan planOf(const Scene& scene, const Variant& asked, const DeviceInfo& device, 
 }
 
 std::string mismatches(const Difference& d) {
-  std::string text = fmt::format("differs from the oracle: of {} pixels", cli::grouped(d.pixels));
+  std::string text = fmt::format("differs from the oracle: of {} pixels", grouped(d.pixels));
   const char* separator = " ";
   for (const auto& [name, count] : {std::pair{"coverage", d.coverage},
                                     {"ids", d.id},
                                     {"depth", d.depth},
                                     {"hits", d.hits},
                                     {"values", d.attribute}})
-    if (count) text += fmt::format("{}{} in {}", std::exchange(separator, ", "), name, cli::grouped(*count));
+    if (count) text += fmt::format("{}{} in {}", std::exchange(separator, ", "), name, grouped(*count));
   return text;
 }
 
 /// An implementation variant that differs: an error, but where the device's arithmetic promises nothing.
 void judge(Run& run, const CheckTools& tools) {
   run.message = mismatches(*run.difference);
-  const Probe probe = probeDevice(tools.device, tools.kernels, cli::routeOf(run.device, run.variant));
-  if (!probe.passed()) run.message += "; the device's arithmetic fails its probe: " + cli::firstFailure(probe);
+  const Probe probe = probeDevice(tools.device, tools.kernels, routeOf(run.device, run.variant));
+  if (!probe.passed()) run.message += "; the device's arithmetic fails its probe: " + firstFailure(probe);
   if (probe.passed() || probe.onlyFlushes()) run.status = "error";
 }
 
@@ -76,7 +76,7 @@ bool hasMismatch(const std::optional<Difference>& difference) { return differenc
 void writePicture(Run& run, std::size_t number, const Framebuffer& image, const CheckTools& tools) {
   const bool own = hasMismatch(run.difference);
   if (!own && !hasMismatch(run.truthDifference)) return;
-  cli::Oracle& oracle = tools.oracles.of(*run.scene, own ? run.variant : joined(run.variant, run.truth));
+  Oracle& oracle = tools.oracles.of(*run.scene, own ? run.variant : joined(run.variant, run.truth));
   const Framebuffer expected = oracle.expected(image);
   run.picture = fmt::format("pictures/{}.png", number);
   try {
@@ -102,7 +102,7 @@ void writePicture(Run& run, std::size_t number, const Framebuffer& image, const 
 
 }  // namespace
 
-cli::Oracle& Oracles::of(const Scene& scene, const Variant& resolved) {
+Oracle& Oracles::of(const Scene& scene, const Variant& resolved) {
   const std::string image = imageText(resolved);
   const auto found = std::ranges::find_if(kept_, [&](const Kept& k) { return k.scene == &scene && k.image == image; });
   if (found != kept_.end()) {
@@ -116,7 +116,7 @@ cli::Oracle& Oracles::of(const Scene& scene, const Variant& resolved) {
     held -= kept_.back().bytes;
     kept_.pop_back();
   }
-  kept_.push_front({&scene, image, bytes, std::make_unique<cli::Oracle>(scene, resolved)});
+  kept_.push_front({&scene, image, bytes, std::make_unique<Oracle>(scene, resolved)});
   return *kept_.front().oracle;
 }
 
@@ -128,7 +128,7 @@ Variant joined(Variant variant, const Variant& more) {
 bool variesFromRunToRun(const Variant& resolved) { return resolved.get("overflow") == "drop"; }
 
 Difference errorOf(const Scene& scene, const Variant& resolved, const Framebuffer& image, Oracles& oracles) {
-  cli::Oracle& oracle = oracles.of(scene, resolved);
+  Oracle& oracle = oracles.of(scene, resolved);
   oracle.holdColours({});  // those of another cell say nothing of this one
   return oracle.against(image);
 }
@@ -141,14 +141,14 @@ double checkCell(Run& run, std::size_t number, const CheckTools& tools) {
   run.plan = plan.entries;
   compile(scene, asked, run.device, tools.kernels);
   if (!tools.kernels.files().empty()) {
-    cli::KernelCheck checked(scene, asked, tools.kernels.files());
+    KernelCheck checked(scene, asked, tools.kernels.files());
     tools.frame([&] { checked.run(); });
   }
 
   Rasterizer rasterizer(tools.device, tools.kernels);
   Frame frame;
   run.variant = asked;
-  tools.frame([&] { frame = cli::measure(run, rasterizer, tools.kernels, 0); });
+  tools.frame([&] { frame = measure(run, rasterizer, tools.kernels, 0); });
   run.peakBufferBytes = tools.device.peakBufferBytes();
   Framebuffer& image = frame.image;
 
@@ -161,17 +161,17 @@ double checkCell(Run& run, std::size_t number, const CheckTools& tools) {
   tools.frame([&] { rasterizer.render(scene, asked, {.readBack = false}); });
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 
-  cli::measureError(run, image);
+  measureError(run, image);
   std::vector<glm::vec3> colours;
   if (!image.colour.empty() && isApproximate(run.variant)) {
-    const Variant exact = cli::exactVariant(asked, run.variant);
+    const Variant exact = exactVariant(asked, run.variant);
     compile(scene, exact, run.device, tools.kernels);
     tools.frame([&] { colours = rasterizer.render(scene, exact).image.colour; });
   }
-  cli::Oracle& oracle = tools.oracles.of(scene, run.variant);
+  Oracle& oracle = tools.oracles.of(scene, run.variant);
   oracle.holdColours(std::move(colours));
   run.difference = oracle.against(image);
-  run.wrongWinners = cli::wrongWinners(run.variant, *run.difference, oracle.expected(image), image);
+  run.wrongWinners = wrongWinners(run.variant, *run.difference, oracle.expected(image), image);
   if (!run.truth.values().empty())
     run.truthDifference = errorOf(scene, joined(run.variant, run.truth), image, tools.oracles);
   writePicture(run, number, image, tools);

@@ -1,15 +1,16 @@
 // A cell's first frames: what it draws, held against the oracle, and what a row says of it beside its times.
 #pragma once
 
+#include <tessera/kernel-cache.h>
+#include <tessera/rasterizer.h>
+
 #include <functional>
 #include <list>
 #include <memory>
 #include <stdexcept>
 
 #include "experiments/harness/request.h"
-#include "host/cli/parity-oracle.h"
-#include <tessera/kernel-cache.h>
-#include <tessera/rasterizer.h>
+#include "host/measure/parity-oracle.h"
 #include "host/measure/row.h"
 
 namespace tessera::harness {
@@ -17,14 +18,14 @@ namespace tessera::harness {
 /// The oracle's images of one job, each rendered once as long as there is room for it.
 class Oracles {
  public:
-  cli::Oracle& of(const Scene& scene, const Variant& resolved);
+  Oracle& of(const Scene& scene, const Variant& resolved);
 
  private:
   struct Kept {
     const Scene* scene;
     std::string image;
     std::size_t bytes;
-    std::unique_ptr<cli::Oracle> oracle;
+    std::unique_ptr<Oracle> oracle;
   };
   std::list<Kept> kept_;  ///< the one used last is in front
 };

@@ -1,5 +1,10 @@
 #include "experiments/harness/estimate.h"
 
+#include <tessera/error.h>
+#include <tessera/input.h>
+#include <tessera/oracle.h>
+#include <tessera/rasterizer.h>
+
 #include <algorithm>
 #include <chrono>
 #include <fstream>
@@ -8,15 +13,11 @@
 #include <set>
 #include <tuple>
 
-#include <tessera/input.h>
-#include "host/cli/common.h"
-#include "host/cli/kernel-check.h"
-#include "host/cli/measure.h"
-#include "host/cli/progress.h"
-#include <tessera/error.h>
+#include "host/devices/open.h"
+#include "host/measure/kernel-check.h"
+#include "host/measure/measure.h"
 #include "host/oracle/oracle-image.h"
-#include <tessera/rasterizer.h>
-#include <tessera/oracle.h>
+#include "host/support/progress.h"
 
 namespace tessera::harness {
 namespace {
@@ -98,11 +99,11 @@ class Meter {
 
   GroupTimes measure(const Cell& cell) {
     const Scene& scene = load(cell);
-    const auto device = cli::openDevice(cell.device, cell.threads);
+    const auto device = openDevice(cell.device, cell.threads);
     KernelCache kernels({.files = cell.kernels});
-    compilingS_ += secondsOf([&] { cli::compileKernels(kernels, {makePlan(scene, cell.asked, device->info())}); });
+    compilingS_ += secondsOf([&] { compileKernels(kernels, {makePlan(scene, cell.asked, device->info())}); });
     compiled_ += kernels.statistics().compiled;
-    cli::checkUserKernels(scene, cell.asked, cell.kernels);
+    checkUserKernels(scene, cell.asked, cell.kernels);
     Rasterizer rasterizer(*device, kernels);
     GroupTimes times;
     Frame frame;
@@ -161,7 +162,7 @@ Estimate estimate(const Sweep& sweep, const std::vector<Cell>& cells, const Surv
     result.nothing = false;
     result.seconds += static_cast<double>(images.size()) * oracle;
   };
-  cli::Progress progress("measuring the references", cells.empty() ? 0 : cells.back().group + 1);
+  Progress progress("measuring the references", cells.empty() ? 0 : cells.back().group + 1);
   for (auto first = cells.begin(); first != cells.end();) {
     const auto last = std::find_if(first, cells.end(), [&](const Cell& cell) { return cell.group != first->group; });
     std::vector<const Cell*> run;

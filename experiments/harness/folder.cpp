@@ -1,11 +1,11 @@
 #include "experiments/harness/folder.h"
 
 #include <fmt/format.h>
+#include <tessera/error.h>
 
 #include "experiments/harness/rows.h"
-#include <tessera/error.h>
-#include "host/support/files.h"
 #include "host/measure/row.h"
+#include "host/support/files.h"
 
 namespace tessera::harness {
 namespace {

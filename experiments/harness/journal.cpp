@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <sys/file.h>
 #include <sys/stat.h>
+#include <tessera/error.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -16,9 +17,8 @@
 #include "datasets/text.h"
 #include "experiments/harness/fields.h"
 #include "experiments/harness/row-schema.h"
-#include <tessera/error.h>
-#include "host/support/files.h"
 #include "host/measure/row.h"
+#include "host/support/files.h"
 
 namespace tessera::harness {
 namespace {

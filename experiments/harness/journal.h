@@ -12,6 +12,8 @@
 //            true where the cell had a sample of this round already
 #pragma once
 
+#include <tessera/rasterizer.h>
+
 #include <chrono>
 #include <filesystem>
 #include <map>
@@ -19,7 +21,6 @@
 #include <vector>
 
 #include "experiments/harness/request.h"
-#include <tessera/rasterizer.h>
 
 namespace tessera::harness {
 

@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <tessera/counters.h>
 
 #include <algorithm>
 #include <array>
 
 #include "datasets/text.h"
 #include "experiments/harness/axis-values.h"
-#include <tessera/counters.h>
 #include "host/support/suggest.h"
 
 namespace tessera::harness {

@@ -1,6 +1,7 @@
 #include "experiments/harness/rows.h"
 
 #include <fmt/format.h>
+#include <tessera/error.h>
 
 #include <algorithm>
 #include <fstream>
@@ -8,9 +9,8 @@
 #include <tuple>
 
 #include "experiments/harness/fields.h"
-#include <tessera/error.h>
-#include "host/support/files.h"
 #include "host/measure/row.h"
+#include "host/support/files.h"
 
 namespace tessera::harness {
 namespace {

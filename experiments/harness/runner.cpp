@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <tessera/error.h>
+#include <tessera/input.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -9,7 +11,6 @@
 #include <memory>
 #include <set>
 
-#include <tessera/input.h>
 #include "datasets/text.h"
 #include "experiments/harness/cells.h"
 #include "experiments/harness/fields.h"
@@ -19,10 +20,9 @@
 #include "experiments/harness/schedule.h"
 #include "experiments/harness/summary.h"
 #include "experiments/harness/worker-process.h"
-#include "host/cli/progress.h"
-#include <tessera/error.h>
-#include "host/support/files.h"
 #include "host/measure/row.h"
+#include "host/support/files.h"
+#include "host/support/progress.h"
 #include "host/support/suggest.h"
 #include "host/support/terminal.h"
 
@@ -166,7 +166,7 @@ class Runner {
     for (const Job& job : jobs_)
       if (!schedule_.isDone(job)) prepare(job);
     open();
-    cli::Progress progress("sweep", schedule_.steps());
+    Progress progress("sweep", schedule_.steps());
     progress_ = &progress;
     for (const Job& job : jobs_) {
       if (schedule_.isDone(job)) continue;
@@ -457,7 +457,7 @@ class Runner {
   std::string ending_;
   unsigned session_ = 0;
   const Job* job_ = nullptr;
-  cli::Progress* progress_ = nullptr;
+  Progress* progress_ = nullptr;
   std::size_t checks_ = 0;
   double checkS_ = 0;
 };

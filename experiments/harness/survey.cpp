@@ -1,17 +1,18 @@
 #include "experiments/harness/survey.h"
 
 #include <fmt/format.h>
+#include <tessera/error.h>
+#include <tessera/input.h>
+#include <tessera/plan.h>
 
 #include <map>
 #include <tuple>
 
-#include <tessera/input.h>
-#include "host/cli/common.h"
-#include "host/cli/progress.h"
-#include <tessera/error.h>
+#include "host/devices/open.h"
+#include "host/measure/measure.h"
 #include "host/oracle/oracle-image.h"
-#include <tessera/plan.h>
 #include "host/plan/stages.h"
+#include "host/support/progress.h"
 
 namespace tessera::harness {
 namespace {
@@ -24,7 +25,7 @@ struct Opened {
 
 Opened open(const std::string& name, unsigned threads) {
   try {
-    return {cli::openDevice(name, threads), ""};
+    return {openDevice(name, threads), ""};
   } catch (const Error& error) {
     return {nullptr, error.what()};
   }
@@ -48,7 +49,7 @@ Survey survey(const Sweep& sweep, const std::vector<Cell>& cells, KernelCache& k
   std::optional<Scene> scene;
   std::size_t loaded = 0;
   Size size;
-  cli::Progress progress("planning", cells.size());
+  Progress progress("planning", cells.size());
   for (const Cell& cell : cells) {
     SurveyedCell& result = survey.cells[cell.number];
     const auto key = std::pair(cell.device, cell.threads);
@@ -62,7 +63,7 @@ Survey survey(const Sweep& sweep, const std::vector<Cell>& cells, KernelCache& k
       const SweepScene& input = sweep.scenes[cell.scene];
       progress.at(cell.number, "loading " + input.name);
       scene = loadInput(input.input, cell.size.width, cell.size.height, input.attribute);
-      cli::printNotes(*scene);
+      printNotes(*scene);
       loaded = cell.scene;
       size = cell.size;
     }

@@ -1,14 +1,15 @@
 // What the planner and the kernel cache say of a sweep's cells, before anything is rendered.
 #pragma once
 
+#include <tessera/device.h>
+#include <tessera/kernel-cache.h>
+
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "experiments/harness/cells.h"
-#include <tessera/device.h>
-#include <tessera/kernel-cache.h>
 
 namespace tessera::harness {
 

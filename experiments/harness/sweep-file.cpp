@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <openssl/evp.h>
+#include <tessera/error.h>
 
 #include <algorithm>
 #include <array>
@@ -15,10 +16,10 @@
 #include "datasets/toml-table.h"
 #include "experiments/harness/axis-values.h"
 #include "experiments/harness/report-keys.h"
-#include <tessera/error.h>
+#include "host/kernels/user-kernel.h"
 #include "host/plan/stages.h"
 #include "host/support/suggest.h"
-#include "host/kernels/user-kernel.h"
+#include "host/support/text.h"
 
 namespace tessera::harness {
 namespace {

@@ -1,6 +1,10 @@
 // sweep.toml: what varies, on which scenes, how often. experiments/README.md documents the keys.
 #pragma once
 
+#include <tessera/input.h>
+#include <tessera/kernel-cache.h>
+#include <tessera/variant.h>
+
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -9,10 +13,6 @@
 #include <string_view>
 #include <utility>
 #include <vector>
-
-#include <tessera/input.h>
-#include <tessera/kernel-cache.h>
-#include <tessera/variant.h>
 
 namespace tessera::harness {
 

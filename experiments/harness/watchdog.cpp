@@ -1,12 +1,11 @@
 #include "experiments/harness/watchdog.h"
 
 #include <fmt/format.h>
+#include <tessera/error.h>
 
 #include <algorithm>
 #include <limits>
 #include <system_error>
-
-#include <tessera/error.h>
 
 namespace tessera::harness {
 namespace {

@@ -18,8 +18,8 @@
 #include "experiments/harness/fields.h"
 #include "experiments/harness/request.h"
 #include "experiments/harness/watchdog.h"
-#include "host/cli/common.h"
-#include "host/cli/measure.h"
+#include "host/devices/open.h"
+#include "host/measure/measure.h"
 #include "host/plan/stages.h"
 
 namespace tessera::harness {
@@ -87,7 +87,7 @@ class Worker {
     }
     for (const auto& [files, list] : plans) {
       try {
-        cli::compileKernels(*kernels_.at(files), list);
+        compileKernels(*kernels_.at(files), list);
       } catch (const Error&) {  // a user's kernel, or one of ours: the check of each cell that takes it says so
       }
     }
@@ -107,14 +107,14 @@ class Worker {
     const auto [place, isNew] = scenes_.try_emplace({cell.size.width, cell.size.height});
     if (isNew) {
       place->second = loadInput(job_.input, cell.size.width, cell.size.height, job_.attribute);
-      cli::printNotes(place->second);
+      printNotes(place->second);
     }
     return place->second;
   }
 
   Device& deviceOf(const WorkerCell& cell) {
     auto& device = devices_[cell.threads];
-    if (!device) device = cli::openDevice(job_.device, cell.threads);
+    if (!device) device = openDevice(job_.device, cell.threads);
     return *device;
   }
 
@@ -131,7 +131,7 @@ class Worker {
   }
 
   Run beginOf(const WorkerCell& cell, const Device& device, const KernelCache& kernels) {
-    Run run = cli::beginRun(sceneOf(cell), cell.asked, device, kernels);
+    Run run = beginRun(sceneOf(cell), cell.asked, device, kernels);
     run.attributeRange = job_.attribute.range;
     run.truth = job_.truth;
     run.seed = job_.seed;
@@ -143,7 +143,7 @@ class Worker {
   }
 
   void check(const WorkerCell& cell) {
-    const auto device = cli::openDevice(job_.device, cell.threads);
+    const auto device = openDevice(job_.device, cell.threads);
     KernelCache& kernels = kernelsOf(cell);
     Run run = beginOf(cell, *device, kernels);
     double seconds = 0;

@@ -1,6 +1,5 @@
 // THE list: every axis and value that there is. A value is a line here and, mostly, a Slang file.
 #include <fmt/format.h>
-
 #include <tessera/variant.h>
 
 namespace tessera {
@@ -97,7 +96,8 @@ std::vector<Axis> vertexAxes() {
        "leaving no empty slots among the pieces that go on from setup",
        "Wihlidal, Optimizing the graphics pipeline with compute, GDC 2016",
        kSetup,
-       {{"off", "a triangle's first piece has the slot of its triangle; a dropped one leaves it empty", flag("kCompact", false)},
+       {{"off", "a triangle's first piece has the slot of its triangle; a dropped one leaves it empty",
+         flag("kCompact", false)},
         {"on", "a group of lanes takes as many slots as it has pieces", flag("kCompact", true)}},
        "off"},
       {"wide",
@@ -171,8 +171,7 @@ std::vector<Axis> rasterAxes() {
        "",
        {"clear", "payload", "raster-tiles", "raster-items", "resolve"},
        {{"tile-owned", "a group owns its tile's depth and ids and writes them back once; no atomics",
-         type("Commit", "commit.tile_owned", "TileOwned"), kImplementation, kWritesTiles,
-         "Laine and Karras, HPG 2011"},
+         type("Commit", "commit.tile_owned", "TileOwned"), kImplementation, kWritesTiles, "Laine and Karras, HPG 2011"},
         {"depth32+id32", "64-bit atomic min on depth and id in one word",
          type("Commit", "commit.depth32_id32", "CommitDepth32Id32"), kImplementation,
          kNeedsInt64 | kNeedsAtomics64 | kResolves, "Karis et al., A deep dive into Nanite, SIGGRAPH 2021 courses"},
@@ -208,7 +207,8 @@ std::vector<Axis> rasterAxes() {
        "which cells of its bounding box a piece visits, and in which order",
        "Pineda, A parallel algorithm for polygon rasterization, SIGGRAPH 1988",
        kRaster,
-       {{"pixel", "all 8 x 8 cells, and each of their pixels tests", type("Traversal", "traversal.pixel", "TraversePixels")},
+       {{"pixel", "all 8 x 8 cells, and each of their pixels tests",
+         type("Traversal", "traversal.pixel", "TraversePixels")},
         {"cell-reject", "all cells, rejected or accepted whole first",
          type("Traversal", "traversal.cell_reject", "TraverseCells")},
         {"hierarchical", "blocks of 32 x 32, of 16 x 16, then cells, each rejected or accepted whole first",
@@ -262,7 +262,8 @@ std::vector<Axis> rasterAxes() {
        "what is counted",
        "",
        kRaster,
-       {{"basic", "drops, pieces, bins; the work in a result row is counted in a frame of its own", flag("kCountWork", false)},
+       {{"basic", "drops, pieces, bins; the work in a result row is counted in a frame of its own",
+         flag("kCountWork", false)},
         {"work", "also tests, covered samples and atomics, at a cost", flag("kCountWork", true)}},
        "basic"},
       {"shade",
@@ -294,14 +295,27 @@ const std::vector<AxisRule>& axisRules() {
       {"capacity", {}, "binning", {"queue"}, "only queues have a capacity"},
       {"overflow", {}, "binning", {"queue"}, "only queues overflow"},
       {"tile", {}, "binning", {"aabb-scan", "queue", "exact", "bitmask"}, "without bins there are no tiles"},
-      {"tile-test", {"edges"}, "edge", {"int32", "int64", "float64"},
+      {"tile-test",
+       {"edges"},
+       "edge",
+       {"int32", "int64", "float64"},
        "an inexact edge may cover samples of a tile that the exact one rejects"},
-      {"commit", {"tile-owned"}, "binning", {"aabb-scan", "queue", "exact", "bitmask"},
+      {"commit",
+       {"tile-owned"},
+       "binning",
+       {"aabb-scan", "queue", "exact", "bitmask"},
        "it owns tiles, and binning=none has none"},
-      {"commit", {"depth32+rgba8", "depth24+lum8"}, "shade", {"id", "flat"},
+      {"commit",
+       {"depth32+rgba8", "depth24+lum8"},
+       "shade",
+       {"id", "flat"},
        "it keeps one colour a triangle, made before raster"},
       {"commit", {"count"}, "shade", {"none"}, "it keeps no ids to shade"},
-      {"step", {"incremental"}, "edge", {"int32", "int64", "float64"}, "an inexact edge would round again at each step"},
+      {"step",
+       {"incremental"},
+       "edge",
+       {"int32", "int64", "float64"},
+       "an inexact edge would round again at each step"},
   };
   return list;
 }

@@ -1,13 +1,12 @@
-#include <tessera/variant.h>
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <tessera/counters.h>
+#include <tessera/error.h>
+#include <tessera/variant.h>
 
 #include <algorithm>
 #include <charconv>
 
-#include <tessera/counters.h>
-#include <tessera/error.h>
 #include "host/support/suggest.h"
 
 namespace tessera {
@@ -29,7 +28,9 @@ const char* kindName(AxisKind kind) {
 }
 
 AxisKind Axis::kind() const {
-  const auto is = [this](AxisKind k) { return std::ranges::any_of(values, [k](const AxisValue& v) { return v.kind == k; }); };
+  const auto is = [this](AxisKind k) {
+    return std::ranges::any_of(values, [k](const AxisValue& v) { return v.kind == k; });
+  };
   return is(kImplementation) || values.empty() ? kImplementation : kImage;
 }
 
@@ -53,8 +54,10 @@ Variant::Variant(std::initializer_list<std::pair<std::string_view, std::string_v
 
 void Variant::set(std::string_view name, std::string_view value) {
   const Axis& a = axis(name);
-  if (a.values.empty()) checkNumber(a, value);
-  else axisValue(a.name, value);
+  if (a.values.empty())
+    checkNumber(a, value);
+  else
+    axisValue(a.name, value);
   values_[a.name] = value;
 }
 
@@ -97,7 +100,8 @@ VariantModules variantModules(std::string_view stage, const Variant& resolved) {
                          "// Generated: the types that this stage is made of.\nmodule variant;\n"};
   std::string& text = modules.settings;
   for (const Axis& a : axes())
-    if (std::ranges::find(a.stages, stage) != a.stages.end()) (a.types ? modules.variant : text) += axisValue(a.name, resolved.get(a.name)).slang;
+    if (std::ranges::find(a.stages, stage) != a.stages.end())
+      (a.types ? modules.variant : text) += axisValue(a.name, resolved.get(a.name)).slang;
   text += fmt::format("public static const int kCounterCount = {};\n", kernelCounterCount());
   for (std::size_t i = 0; i < kernelCounterCount(); ++i) {
     std::string name = counterDocs()[i].name;

@@ -1,12 +1,13 @@
 // The commands of the command line, one a file. Results go to stdout, messages and progress to stderr.
 #pragma once
 
+#include <tessera/error.h>
+
 #include <CLI/CLI.hpp>
 #include <functional>
 #include <string>
 
 #include "experiments/harness/sweep-file.h"
-#include <tessera/error.h>
 
 namespace tessera::cli {
 

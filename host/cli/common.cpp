@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <tessera/cpu-device.h>
+#include <tessera/error.h>
+#include <tessera/input.h>
+#include <tessera/vulkan-device.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -12,17 +16,15 @@
 #include <sstream>
 
 #include "datasets/input-files.h"
-#include <tessera/input.h>
 #include "datasets/text.h"
-#include "host/cli/progress.h"
-#include <tessera/cpu-device.h>
-#include <tessera/error.h>
-#include "host/support/files.h"
+#include "host/devices/open.h"
+#include "host/kernels/user-kernel.h"
+#include "host/measure/measure.h"
 #include "host/plan/stages.h"
+#include "host/support/files.h"
+#include "host/support/progress.h"
 #include "host/support/suggest.h"
 #include "host/support/terminal.h"
-#include "host/kernels/user-kernel.h"
-#include <tessera/vulkan-device.h>
 
 namespace tessera::cli {
 namespace {
@@ -70,21 +72,6 @@ ValueRange parseRange(const std::string& text) {
 }
 
 /// Which there are, and which of them may have been meant: a part of an adapter's name without "vulkan:", too.
-[[noreturn]] void failDevice(const std::string& name) {
-  std::vector<std::string> names{"cpu"}, known{"cpu"};
-  std::string part;
-  for (const VulkanAdapter& adapter : listVulkanAdapters().adapters) {
-    names.push_back(fmt::format("vulkan:{}", adapter.index));
-    known.push_back(fmt::format("vulkan:{} ({})", adapter.index, adapter.name));
-    if (lowerCase(name) == "gpu") part = "vulkan";
-    if (!name.empty() && lowerCase(adapter.name).find(lowerCase(name)) != std::string::npos) part = "vulkan:" + name;
-  }
-  if (part.empty()) part = nearest(name, names);
-  failUsage(fmt::format("--device {}: no such device; {}there {} {}", name,
-                        part.empty() ? "" : fmt::format("did you mean {}? Otherwise ", part),
-                        known.size() == 1 ? "is" : "are", fmt::join(known, ", ")));
-}
-
 }  // namespace
 
 void addInput(CLI::App& app, Options& options) {
@@ -219,12 +206,6 @@ AttributeRequest attributeOf(const Options& options) {
   return request;
 }
 
-void printNotes(const Scene& scene) {
-  static std::set<std::string> printed;
-  for (const std::string& note : scene.notes)
-    if (printed.insert(note).second) say(stderr, "warning: {}\n", note);
-}
-
 Scene sceneOf(const Options& options) {
   const Size size = options.size.empty() ? Size{0, 0} : parseSize(options.size);  // 0: the scene's own
   Scene scene = [&] {
@@ -244,34 +225,11 @@ Scene sceneOf(const Options& options) {
   return scene;
 }
 
-std::unique_ptr<Device> openDevice(const std::string& name, unsigned threads) {
-  if (name == "cpu") return makeCpuDevice({.threads = threads});
-  VulkanOptions vulkan;
-  if (name.starts_with("vulkan:")) vulkan.select = name.substr(7);
-  if (name != "vulkan" && vulkan.select.empty()) failDevice(name);
-#ifdef TESSERA_VALIDATION
-  vulkan.validation = true;
-#endif
-  return makeVulkanDevice(vulkan);
-}
-
-std::unique_ptr<Device> openDevice(const Options& options) {
+std::unique_ptr<Device> deviceOf(const Options& options) {
   const std::string name = options.devices.empty() ? "cpu" : options.devices.front();
   if (options.threads != 0 && name.starts_with("vulkan"))
     failUsage("--threads: only the CPU device takes it; --device cpu would");
   return openDevice(name, options.threads);
-}
-
-std::vector<std::string> presentDevices() {
-  std::vector<std::string> names{"cpu"};
-  for (const auto& adapter : listVulkanAdapters().adapters)
-    if (adapter.whyNot.empty()) names.push_back(fmt::format("vulkan:{}", adapter.index));
-  return names;
-}
-
-Route routeOf(const DeviceInfo& device, const Variant& variant) {
-  if (device.api == "cpu") return Route::kCpp;
-  return variant.get("route", "spirv") == "glsl" ? Route::kGlsl : Route::kSpirv;
 }
 
 std::vector<std::string> partsOf(const std::string& typed, const std::string& option, const std::string& right) {

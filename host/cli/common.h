@@ -1,17 +1,17 @@
 // What several commands share: their options, and how text becomes a variant, a scene, a device.
 #pragma once
 
+#include <tessera/device.h>
+#include <tessera/input.h>
+#include <tessera/kernel-cache.h>
+#include <tessera/scene.h>
+#include <tessera/variant.h>
+
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
-
-#include <tessera/input.h>
-#include <tessera/device.h>
-#include <tessera/kernel-cache.h>
-#include <tessera/scene.h>
-#include <tessera/variant.h>
 
 namespace tessera::cli {
 
@@ -47,19 +47,11 @@ Variant variantOf(const Options& options);
 KernelFiles kernelFilesOf(const Options& options);
 /// --attribute and --range.
 AttributeRequest attributeOf(const Options& options);
-/// Prints what a user would not expect of a scene as warnings, each line once a process.
-void printNotes(const Scene& scene);
 /// Loads the input and its attribute, and prints its notes; a size that was given replaces the scene's, and its camera
 /// follows.
 Scene sceneOf(const Options& options);
-/// Throws kUsage for a name that no device has, naming those here.
-std::unique_ptr<Device> openDevice(const std::string& name, unsigned threads);
 /// The one device of a command that takes one: the CPU unless another was named.
-std::unique_ptr<Device> openDevice(const Options& options);
-/// "cpu" and "vulkan:N" for each usable Vulkan device here.
-std::vector<std::string> presentDevices();
-/// How kernels reach this device under this variant.
-Route routeOf(const DeviceInfo& device, const Variant& variant);
+std::unique_ptr<Device> deviceOf(const Options& options);
 
 /// What stands between the commas of an option's value, without blanks around it. Throws kUsage where it is nothing,
 /// saying that `right` would be right.

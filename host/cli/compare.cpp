@@ -17,11 +17,12 @@
 #include "host/cli/commands.h"
 #include "host/cli/common.h"
 #include "host/cli/difference.h"
-#include "host/cli/table.h"
 #include "host/images/comparison.h"
-#include "host/support/files.h"
 #include "host/measure/image-facts.h"
+#include "host/support/files.h"
+#include "host/support/table.h"
 #include "host/support/terminal.h"
+#include "host/support/text.h"
 
 namespace tessera::cli {
 namespace {

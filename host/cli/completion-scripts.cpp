@@ -1,10 +1,11 @@
 // What the shells need of their own: how they hand over the words, and how they take the answer. The rest is
 // `tessera complete`.
+#include <tessera/error.h>
+
 #include <array>
 #include <utility>
 
 #include "host/cli/completion.h"
-#include <tessera/error.h>
 #include "host/support/suggest.h"
 
 namespace tessera::cli {

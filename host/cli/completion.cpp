@@ -1,5 +1,8 @@
 #include "host/cli/completion.h"
 
+#include <tessera/variant.h>
+#include <tessera/vulkan-device.h>
+
 #include <algorithm>
 #include <optional>
 
@@ -8,8 +11,6 @@
 #include "host/cli/help.h"
 #include "host/kernels/emit.h"
 #include "host/plan/stages.h"
-#include <tessera/variant.h>
-#include <tessera/vulkan-device.h>
 
 namespace tessera::cli {
 namespace {

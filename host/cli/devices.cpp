@@ -1,5 +1,7 @@
 // tessera devices: what can run here, what it can do, and whether its arithmetic gives the contract's bits.
 #include <fmt/format.h>
+#include <tessera/kernel-cache.h>
+#include <tessera/vulkan-device.h>
 
 #include <cstdio>
 #include <memory>
@@ -7,12 +9,11 @@
 
 #include "host/cli/commands.h"
 #include "host/cli/common.h"
-#include "host/cli/probe-text.h"
-#include "host/cli/progress.h"
-#include "host/cli/table.h"
-#include <tessera/kernel-cache.h>
+#include "host/devices/open.h"
+#include "host/measure/probe-text.h"
+#include "host/support/progress.h"
+#include "host/support/table.h"
 #include "host/support/terminal.h"
-#include <tessera/vulkan-device.h>
 
 namespace tessera::cli {
 namespace {

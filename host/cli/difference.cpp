@@ -5,7 +5,7 @@
 #include <array>
 #include <bit>
 
-#include "host/cli/table.h"
+#include "host/support/table.h"
 
 namespace tessera::cli {
 namespace {

@@ -1,10 +1,10 @@
 // How two images differ, in words.
 #pragma once
 
+#include <tessera/image.h>
+
 #include <optional>
 #include <string>
-
-#include <tessera/image.h>
 
 namespace tessera::cli {
 

@@ -16,7 +16,7 @@
 #include "experiments/harness/sweep-file.h"
 #include "host/cli/commands.h"
 #include "host/cli/common.h"
-#include "host/cli/table.h"
+#include "host/support/table.h"
 #include "host/support/terminal.h"
 
 namespace tessera::cli {

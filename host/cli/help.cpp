@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <sys/ioctl.h>
+#include <tessera/input.h>
+#include <tessera/variant.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -10,9 +12,7 @@
 #include <cstdlib>
 #include <cstring>
 
-#include <tessera/input.h>
 #include "host/support/suggest.h"
-#include <tessera/variant.h>
 
 namespace tessera::cli {
 namespace {

@@ -1,23 +1,24 @@
 // tessera kernels: compiles ahead what rendering would compile at first use; writes kernels for other machines.
 #include <fmt/format.h>
+#include <tessera/error.h>
+#include <tessera/input.h>
+#include <tessera/kernel-cache.h>
+#include <tessera/plan.h>
 
 #include <array>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 
-#include <tessera/input.h>
 #include "host/cli/commands.h"
 #include "host/cli/common.h"
 #include "host/cli/manifest.h"
-#include "host/cli/measure.h"
-#include "host/cli/table.h"
+#include "host/devices/open.h"
 #include "host/kernels/emit.h"
-#include <tessera/error.h>
-#include "host/support/files.h"
-#include <tessera/kernel-cache.h>
-#include <tessera/plan.h>
+#include "host/measure/measure.h"
 #include "host/plan/stages.h"
+#include "host/support/files.h"
+#include "host/support/table.h"
 #include "host/support/terminal.h"
 
 namespace tessera::cli {

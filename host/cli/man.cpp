@@ -3,12 +3,12 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-
 #include <tessera/input.h>
+#include <tessera/variant.h>
+
 #include "host/build-info.h"
 #include "host/cli/help.h"
 #include "host/support/suggest.h"
-#include <tessera/variant.h>
 
 namespace tessera::cli {
 namespace {

@@ -1,6 +1,10 @@
 #include "host/cli/manifest.h"
 
 #include <fmt/format.h>
+#include <tessera/counters.h>
+#include <tessera/cpu-device.h>
+#include <tessera/error.h>
+#include <tessera/rasterizer.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -9,10 +13,6 @@
 
 #include "host/build-info.h"
 #include "host/cli/recorder.h"
-#include <tessera/counters.h>
-#include <tessera/cpu-device.h>
-#include <tessera/error.h>
-#include <tessera/rasterizer.h>
 
 namespace tessera::cli {
 namespace {

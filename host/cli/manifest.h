@@ -2,15 +2,16 @@
 // it.
 #pragma once
 
+#include <tessera/plan.h>
+#include <tessera/scene.h>
+#include <tessera/variant.h>
+
 #include <cstddef>
 #include <map>
 #include <string>
 #include <vector>
 
 #include "host/kernels/emit.h"
-#include <tessera/plan.h>
-#include <tessera/scene.h>
-#include <tessera/variant.h>
 
 namespace tessera::cli {
 

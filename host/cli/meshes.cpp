@@ -1,5 +1,6 @@
 // tessera meshes: what INPUT may name beside files, a line each.
 #include <tessera/input.h>
+
 #include "datasets/installed-mesh.h"
 #include "host/cli/commands.h"
 #include "host/support/terminal.h"

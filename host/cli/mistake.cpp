@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <tessera/error.h>
+#include <tessera/variant.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -11,9 +13,7 @@
 #include <vector>
 
 #include "host/cli/help.h"
-#include <tessera/error.h>
 #include "host/support/suggest.h"
-#include <tessera/variant.h>
 
 namespace tessera::cli {
 namespace {

@@ -1,17 +1,18 @@
 #include "host/cli/parity-replay.h"
 
+#include <tessera/error.h>
+#include <tessera/image.h>
+#include <tessera/input.h>
+#include <tessera/plan.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <set>
 
-#include <tessera/input.h>
-#include "host/cli/parity-oracle.h"
-#include "host/cli/progress.h"
-#include <tessera/error.h>
-#include "host/support/files.h"
-#include <tessera/image.h>
-#include <tessera/plan.h>
+#include "host/measure/parity-oracle.h"
 #include "host/plan/stages.h"
+#include "host/support/files.h"
+#include "host/support/progress.h"
 
 namespace tessera::cli {
 namespace {

@@ -1,12 +1,13 @@
 // The replay that parity leaves: the few triangles, in clip space, that still show a difference.
 #pragma once
 
+#include <tessera/device.h>
+#include <tessera/kernel-cache.h>
+
 #include <optional>
 
 #include "host/cli/parity-report.h"
 #include "host/cli/reduce.h"
-#include <tessera/device.h>
-#include <tessera/kernel-cache.h>
 
 namespace tessera::cli {
 

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "host/cli/measure.h"
-#include "host/cli/probe-text.h"
-#include "host/cli/table.h"
+#include "host/measure/measure.h"
+#include "host/measure/probe-text.h"
+#include "host/support/table.h"
 
 namespace tessera::cli {
 namespace {

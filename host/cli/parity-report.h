@@ -1,12 +1,13 @@
 // What parity found, device by device, and how it says so.
 #pragma once
 
+#include <tessera/error.h>
+#include <tessera/probe.h>
+
 #include <optional>
 #include <string>
 #include <vector>
 
-#include <tessera/error.h>
-#include <tessera/probe.h>
 #include "host/measure/row.h"
 
 namespace tessera::cli {

@@ -1,13 +1,13 @@
 #include "host/cli/parity-witness.h"
 
 #include <fmt/format.h>
+#include <tessera/framebuffer.h>
 
 #include <algorithm>
 #include <array>
 #include <vector>
 
-#include "host/cli/parity-oracle.h"
-#include <tessera/framebuffer.h>
+#include "host/measure/parity-oracle.h"
 
 namespace tessera::cli {
 namespace {

@@ -2,12 +2,12 @@
 // named.
 #pragma once
 
-#include <optional>
-#include <string>
-
 #include <tessera/kernel-cache.h>
 #include <tessera/rasterizer.h>
 #include <tessera/variant.h>
+
+#include <optional>
+#include <string>
 
 namespace tessera::cli {
 

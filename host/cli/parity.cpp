@@ -1,5 +1,7 @@
 // tessera parity: every device and route here against the oracle, bit for bit.
 #include <fmt/format.h>
+#include <tessera/input.h>
+#include <tessera/vulkan-device.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -7,22 +9,22 @@
 #include <memory>
 #include <optional>
 
-#include <tessera/input.h>
 #include "host/cli/commands.h"
 #include "host/cli/common.h"
 #include "host/cli/difference.h"
-#include "host/cli/kernel-check.h"
-#include "host/cli/measure.h"
-#include "host/cli/parity-oracle.h"
 #include "host/cli/parity-replay.h"
 #include "host/cli/parity-report.h"
 #include "host/cli/parity-witness.h"
-#include "host/cli/progress.h"
-#include "host/cli/table.h"
+#include "host/devices/open.h"
 #include "host/kernels/compiler-tools.h"
+#include "host/measure/kernel-check.h"
+#include "host/measure/measure.h"
+#include "host/measure/parity-oracle.h"
 #include "host/support/files.h"
+#include "host/support/own-files.h"
+#include "host/support/progress.h"
+#include "host/support/table.h"
 #include "host/support/terminal.h"
-#include <tessera/vulkan-device.h>
 
 namespace tessera::cli {
 namespace {

@@ -1,17 +1,17 @@
 // tessera plan: which passes a scene needs under a variant, and why each other one is left out.
-#include <tessera/plan.h>
-
 #include <fmt/format.h>
+#include <tessera/plan.h>
 
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "host/plan/choice.h"
 #include "host/cli/commands.h"
 #include "host/cli/common.h"
-#include "host/cli/table.h"
+#include "host/devices/open.h"
+#include "host/plan/choice.h"
 #include "host/plan/stages.h"
+#include "host/support/table.h"
 #include "host/support/terminal.h"
 
 namespace tessera::cli {
@@ -41,7 +41,7 @@ std::string planTable(const Plan& plan, const KernelFiles& files) {
 ExitCode runPlan(const PlanOptions& options) {
   const Variant variant = variantOf(options);
   const KernelFiles files = kernelFilesOf(options);
-  const auto device = openDevice(options);
+  const auto device = deviceOf(options);
   const Plan plan = makePlan(sceneOf(options), variant, device->info());
   kernelRequests(plan, files);  // refuses a file of a stage that the plan leaves out, or that the device cannot take
   say(stdout, "{}", options.json ? planJson(plan, files) : planTable(plan, files));

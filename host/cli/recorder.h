@@ -1,13 +1,13 @@
 // A device that runs on another one and writes down what it was asked: the frame as another host would have to run it.
 #pragma once
 
+#include <tessera/device.h>
+
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
-
-#include <tessera/device.h>
 
 namespace tessera::cli {
 

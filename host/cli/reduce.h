@@ -1,12 +1,12 @@
 // The few triangles of a scene that still show a difference.
 #pragma once
 
+#include <tessera/scene.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <vector>
-
-#include <tessera/scene.h>
 
 namespace tessera::cli {
 

@@ -1,5 +1,8 @@
 // tessera render: one scene on one device, to images and a result row.
 #include <fmt/format.h>
+#include <tessera/image.h>
+#include <tessera/kernel-cache.h>
+#include <tessera/rasterizer.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -9,18 +12,16 @@
 
 #include "host/cli/commands.h"
 #include "host/cli/common.h"
-#include "host/cli/kernel-check.h"
-#include "host/cli/measure.h"
-#include "host/cli/progress.h"
-#include "host/cli/render-error.h"
-#include "host/cli/table.h"
 #include "host/cli/times.h"
-#include "host/support/files.h"
+#include "host/devices/open.h"
 #include "host/measure/image-facts.h"
-#include <tessera/image.h>
-#include <tessera/kernel-cache.h>
-#include <tessera/rasterizer.h>
+#include "host/measure/kernel-check.h"
+#include "host/measure/measure.h"
+#include "host/measure/render-error.h"
 #include "host/measure/row.h"
+#include "host/support/files.h"
+#include "host/support/progress.h"
+#include "host/support/table.h"
 #include "host/support/terminal.h"
 
 namespace tessera::cli {
@@ -114,7 +115,7 @@ ExitCode render(const RenderOptions& options) {
   std::optional<AppendedFile> rows;
   if (!options.json.empty()) rows.emplace(options.json);
   KernelCache kernels({.files = kernelFilesOf(options)});
-  const auto device = openDevice(options);
+  const auto device = deviceOf(options);
   const Scene scene = sceneOf(options);
   if (!images.empty()) startLoadingImages();
   Run run = beginRun(scene, variant, *device, kernels);

@@ -15,8 +15,9 @@
 #include "host/cli/commands.h"
 #include "host/cli/common.h"
 #include "host/kernels/compiler-tools.h"
-#include "host/support/home.h"
 #include "host/measure/row.h"
+#include "host/support/home.h"
+#include "host/support/own-files.h"
 #include "host/support/terminal.h"
 
 namespace tessera::cli {

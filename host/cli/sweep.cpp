@@ -5,7 +5,7 @@
 #include "experiments/harness/worker.h"
 #include "host/cli/commands.h"
 #include "host/cli/common.h"
-#include "host/cli/progress.h"
+#include "host/support/progress.h"
 
 namespace tessera::cli {
 

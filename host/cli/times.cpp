@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "host/cli/measure.h"
-#include "host/cli/table.h"
+#include "host/measure/measure.h"
+#include "host/support/table.h"
 
 namespace tessera::cli {
 

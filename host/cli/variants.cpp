@@ -1,6 +1,7 @@
 // tessera variants: the axes of variation, for people, for programs and for the docs.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <tessera/variant.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -9,7 +10,6 @@
 
 #include "host/cli/commands.h"
 #include "host/support/terminal.h"
-#include <tessera/variant.h>
 
 namespace tessera::cli {
 namespace {

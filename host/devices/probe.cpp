@@ -1,6 +1,7 @@
-#include <tessera/probe.h>
-
 #include <fmt/format.h>
+#include <tessera/error.h>
+#include <tessera/kernel-cache.h>
+#include <tessera/probe.h>
 
 #include <algorithm>
 #include <array>
@@ -9,9 +10,6 @@
 #include <cstring>
 #include <limits>
 #include <random>
-
-#include <tessera/error.h>
-#include <tessera/kernel-cache.h>
 
 namespace tessera {
 namespace {

@@ -1,9 +1,9 @@
 // Where the light and the eye are for a matrix to clip space: what shading needs beyond the scene.
 #pragma once
 
-#include <array>
-
 #include <tessera/scene.h>
+
+#include <array>
 
 namespace tessera {
 

@@ -1,11 +1,11 @@
 #include "host/frame/passes.h"
 
 #include <fmt/format.h>
+#include <tessera/error.h>
 
 #include <algorithm>
 #include <cstring>
 
-#include <tessera/error.h>
 #include "host/plan/stages.h"
 
 namespace tessera {

@@ -1,6 +1,10 @@
 // Kernels, buffers and uniforms of the frames of one device; dispatch by stage name. No order of stages is known here.
 #pragma once
 
+#include <tessera/device.h>
+#include <tessera/kernel-cache.h>
+#include <tessera/plan.h>
+
 #include <bit>
 #include <cstdint>
 #include <map>
@@ -8,10 +12,6 @@
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include <tessera/device.h>
-#include <tessera/kernel-cache.h>
-#include <tessera/plan.h>
 
 namespace tessera {
 

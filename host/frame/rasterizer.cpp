@@ -1,13 +1,12 @@
-#include <tessera/rasterizer.h>
-
 #include <fmt/format.h>
+#include <tessera/error.h>
+#include <tessera/rasterizer.h>
 
 #include <algorithm>
 #include <cstring>
 #include <optional>
 #include <utility>
 
-#include <tessera/error.h>
 #include "host/frame/lighting.h"
 #include "host/frame/passes.h"
 #include "host/plan/stages.h"
@@ -214,8 +213,9 @@ class FrameRun {
 
   /// Buffers with an element a pixel, by the names that commits and later stages give them, and its bytes.
   static const std::map<std::string, std::uint64_t>& pixelBuffers() {
-    static const std::map<std::string, std::uint64_t> bytes{{"depth", 4},    {"ids", 4},   {"hits", 4},   {"packed", 8},
-                                                            {"packed32", 4}, {"locks", 4}, {"colour", 12}, {"values", 4}};
+    static const std::map<std::string, std::uint64_t> bytes{{"depth", 4},   {"ids", 4},      {"hits", 4},
+                                                            {"packed", 8},  {"packed32", 4}, {"locks", 4},
+                                                            {"colour", 12}, {"values", 4}};
     return bytes;
   }
 
@@ -488,8 +488,8 @@ class FrameRun {
     keep("transform", "vertex, clip x y z w", 4, passes_.read<std::uint32_t>("clipSpace", 4 * scene_.vertexCount()));
     constexpr std::size_t words = kPieceBytes / 4;
     auto pieces = passes_.read<std::uint32_t>("pieces", words * slots());
-    // An empty slot holds its id and nothing else; the extras, and all where slots are compact, are in the order in which
-    // lanes came.
+    // An empty slot holds its id and nothing else; the extras, and all where slots are compact, are in the order in
+    // which lanes came.
     const std::size_t placed = compact_ ? 0 : passes_.get("triangleCount");
     std::vector<std::array<std::uint32_t, words>> extras;
     for (std::size_t i = 0; i < slots(); ++i) {
@@ -499,8 +499,7 @@ class FrameRun {
       std::ranges::copy(piece, extras.emplace_back().begin());
     }
     std::ranges::sort(extras);
-    if (!extras.empty())
-      std::memcpy(pieces.data() + words * placed, extras.data(), extras.size() * kPieceBytes);
+    if (!extras.empty()) std::memcpy(pieces.data() + words * placed, extras.data(), extras.size() * kPieceBytes);
     keep("setup", "piece, x0 y0 x1 y1 x2 y2 z0 z1 z2 id", words, std::move(pieces));
   }
 

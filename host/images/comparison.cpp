@@ -1,14 +1,13 @@
 #include "host/images/comparison.h"
 
 #include <fmt/format.h>
+#include <tessera/error.h>
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
 #include <limits>
-
-#include <tessera/error.h>
 
 namespace tessera {
 namespace {

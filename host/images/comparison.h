@@ -1,10 +1,10 @@
 // How two images differ, rows of both at a time, so that neither has to be in memory.
 #pragma once
 
+#include <tessera/image.h>
+
 #include <cstdint>
 #include <memory>
-
-#include <tessera/image.h>
 
 namespace tessera {
 

@@ -1,6 +1,8 @@
 #include "host/images/exr-header.h"
 
 #include <fmt/format.h>
+#include <tessera/error.h>
+#include <tessera/scene.h>
 
 #include <algorithm>
 #include <array>
@@ -8,9 +10,6 @@
 #include <fstream>
 #include <optional>
 #include <string>
-
-#include <tessera/error.h>
-#include <tessera/scene.h>
 
 namespace tessera {
 namespace {

@@ -2,6 +2,8 @@
 
 #include <dlfcn.h>
 #include <fmt/format.h>
+#include <tessera/error.h>
+#include <tessera/image.h>
 
 #include <chrono>
 #include <future>
@@ -12,9 +14,6 @@
 #include <system_error>
 #include <thread>
 #include <vector>
-
-#include <tessera/error.h>
-#include <tessera/image.h>
 
 namespace tessera {
 namespace {
@@ -27,10 +26,10 @@ struct Loaded {
   double milliseconds = 0;
 };
 
-// OpenImageIO and libraries that it stands on make threads while they are loaded, and a thread that they cannot make ends
-// the process. So as many threads as they make at most are made here first. Text: why they cannot be.
+// OpenImageIO and libraries that it stands on make threads while they are loaded, and a thread that they cannot make
+// ends the process. So as many threads as they make at most are made here first. Text: why they cannot be.
 std::string lackOfThreads() {
-  constexpr unsigned kFixed = 8;  // log4cplus' pool of 4, and some room
+  constexpr unsigned kFixed = 8;                                             // log4cplus' pool of 4, and some room
   const unsigned wanted = kFixed + 2 * std::thread::hardware_concurrency();  // those of OpenBLAS, OpenImageIO, OpenEXR
   std::latch all(1);
   std::vector<std::jthread> threads;

@@ -1,7 +1,7 @@
-#include <tessera/image.h>
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <tessera/error.h>
+#include <tessera/image.h>
 
 #include <algorithm>
 #include <cstring>
@@ -10,11 +10,10 @@
 #include <type_traits>
 #include <utility>
 
-#include <tessera/error.h>
 #include "host/images/exr-header.h"
-#include "host/support/files.h"
 #include "host/images/image-module.h"
 #include "host/images/picture.h"
+#include "host/support/files.h"
 
 namespace tessera {
 namespace {

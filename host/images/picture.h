@@ -1,12 +1,12 @@
 // A framebuffer as 8-bit sRGB for people to look at.
 #pragma once
 
+#include <tessera/framebuffer.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
-
-#include <tessera/framebuffer.h>
 
 namespace tessera {
 

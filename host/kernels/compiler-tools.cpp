@@ -1,6 +1,7 @@
 #include "host/kernels/compiler-tools.h"
 
 #include <fmt/format.h>
+#include <tessera/error.h>
 #include <unistd.h>
 
 #include <cstdlib>
@@ -8,12 +9,12 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include <tessera/error.h>
+#include "host/kernels/spirv.h"
 #include "host/support/files.h"
 #include "host/support/home.h"
 #include "host/support/own-files.h"
-#include "host/kernels/spirv.h"
 #include "host/support/subprocess.h"
+#include "host/support/text.h"
 
 #ifndef TESSERA_CXX
 #define TESSERA_CXX "g++"
@@ -23,11 +24,6 @@ namespace tessera {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string environment(const char* name) {
-  const char* value = std::getenv(name);
-  return value != nullptr ? value : "";
-}
 
 /// The same program until it is replaced; symbolic links are followed.
 std::string identity(const fs::path& program) {
@@ -226,13 +222,6 @@ ToolInfo resolveGlslang(ToolMemory& memory) {
   const fs::path path = findProgram("glslangValidator");
   if (path.empty()) failUsage("no glslangValidator in PATH: the GLSL route needs it (Debian package glslang-tools)");
   return {path, memory.recall("version", path, [&] { return firstLine(run({path.string(), "--version"})); }), "PATH"};
-}
-
-fs::path defaultCacheFolder() {
-  if (const std::string folder = environment("TESSERA_CACHE"); !folder.empty()) return folder;
-  if (const std::string folder = environment("XDG_CACHE_HOME"); !folder.empty()) return fs::path(folder) / "tessera";
-  if (const std::string folder = environment("HOME"); !folder.empty()) return fs::path(folder) / ".cache" / "tessera";
-  failUsage("no folder for compiled kernels: set TESSERA_CACHE (XDG_CACHE_HOME and HOME are not set either)");
 }
 
 std::string cpuDriverText() {

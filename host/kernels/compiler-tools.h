@@ -1,13 +1,13 @@
 // The programs that kernels are compiled with: which there are, what they call themselves, and whether they will do.
 #pragma once
 
+#include <tessera/kernel-cache.h>
+
 #include <filesystem>
 #include <functional>
 #include <map>
 #include <mutex>
 #include <string>
-
-#include <tessera/kernel-cache.h>
 
 namespace tessera {
 
@@ -42,9 +42,6 @@ CxxInfo resolveCxx(ToolMemory& memory);
 
 /// glslangValidator from PATH. Throws kUsage if there is none.
 ToolInfo resolveGlslang(ToolMemory& memory);
-
-/// $TESSERA_CACHE, else $XDG_CACHE_HOME/tessera, else ~/.cache/tessera. Throws kUsage where none of them is set.
-std::filesystem::path defaultCacheFolder();
 
 /// What DeviceInfo::driver says for the CPU: the compiler and the target that kernels are built for. Without a compiler
 /// it says so: the first kernel is refused then.

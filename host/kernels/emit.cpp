@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <tessera/error.h>
 
 #include <algorithm>
 
-#include <tessera/error.h>
-#include "host/support/files.h"
 #include "host/kernels/slang-compiler.h"
 #include "host/kernels/slang-sources.h"
+#include "host/support/files.h"
 #include "host/support/suggest.h"
 
 namespace tessera {

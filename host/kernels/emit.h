@@ -1,11 +1,11 @@
 // Kernels as text for other machines: what slangc writes of a stage in another language.
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include <tessera/device.h>
 #include <tessera/kernel-cache.h>
+
+#include <string>
+#include <vector>
 
 namespace tessera {
 
@@ -21,8 +21,8 @@ const EmitTarget& emitTarget(std::string_view name);
 
 struct Emitted {
   std::string stage;
-  std::string bytes;      ///< the file; empty where the target cannot take the stage
-  std::string complaint;  ///< then the compiler's first error
+  std::string bytes;       ///< the file; empty where the target cannot take the stage
+  std::string complaint;   ///< then the compiler's first error
   std::string reflection;  ///< slangc's JSON: parameters and where they go
 };
 Emitted emitKernel(KernelCache& cache, const KernelRequest& request, const EmitTarget& target);

@@ -1,7 +1,7 @@
-#include <tessera/kernel-cache.h>
-
 #include <fmt/format.h>
 #include <openssl/evp.h>
+#include <tessera/error.h>
+#include <tessera/kernel-cache.h>
 
 #include <algorithm>
 #include <atomic>
@@ -16,14 +16,13 @@
 #include <thread>
 
 #include "host/kernels/compiler-tools.h"
-#include <tessera/error.h>
-#include "host/support/files.h"
-#include "host/support/home.h"
-#include "host/support/own-files.h"
 #include "host/kernels/reflection.h"
 #include "host/kernels/slang-compiler.h"
 #include "host/kernels/slang-sources.h"
 #include "host/kernels/user-kernel.h"
+#include "host/support/files.h"
+#include "host/support/home.h"
+#include "host/support/own-files.h"
 
 #ifndef TESSERA_KERNEL_CXX_FLAGS
 #define TESSERA_KERNEL_CXX_FLAGS ""

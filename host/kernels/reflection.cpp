@@ -1,13 +1,12 @@
 #include "host/kernels/reflection.h"
 
 #include <fmt/format.h>
+#include <tessera/error.h>
 
 #include <algorithm>
 #include <cctype>
 #include <nlohmann/json.hpp>
 #include <set>
-
-#include <tessera/error.h>
 
 namespace tessera {
 namespace {
@@ -108,7 +107,8 @@ json toJson(const KernelInterface& interface) {
 
 KernelInterface interfaceFromJson(const json& stored) {
   KernelInterface interface;
-  for (const auto& [name, field] : stored.at("fields").items()) interface.fields[name] = {field.at(0), field.at(1), field.at(2)};
+  for (const auto& [name, field] : stored.at("fields").items())
+    interface.fields[name] = {field.at(0), field.at(1), field.at(2)};
   interface.blockSize = stored.at("blockSize");
   interface.resources = stored.at("resources").get<std::map<std::string, std::uint32_t>>();
   interface.elementSizes = stored.at("elementSizes").get<std::map<std::string, std::uint32_t>>();

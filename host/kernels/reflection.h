@@ -1,10 +1,10 @@
 // slangc's reflection JSON -> KernelInterface, and a KernelInterface to and from the cache's own JSON.
 #pragma once
 
+#include <tessera/kernel.h>
+
 #include <nlohmann/json_fwd.hpp>
 #include <string>
-
-#include <tessera/kernel.h>
 
 namespace tessera {
 

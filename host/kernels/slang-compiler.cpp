@@ -1,18 +1,18 @@
 #include "host/kernels/slang-compiler.h"
 
 #include <fmt/format.h>
+#include <tessera/error.h>
 
 #include <regex>
 #include <sstream>
 
-#include <tessera/error.h>
-#include "host/support/files.h"
 #include "host/kernels/reflection.h"
 #include "host/kernels/slang-sources.h"
 #include "host/kernels/spirv-reflection.h"
 #include "host/kernels/spirv.h"
-#include "host/support/subprocess.h"
 #include "host/kernels/user-kernel.h"
+#include "host/support/files.h"
+#include "host/support/subprocess.h"
 
 namespace tessera {
 namespace {

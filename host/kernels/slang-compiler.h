@@ -1,13 +1,14 @@
 // One kernel from Slang to a binary, by slangc and, for two of the routes, a second compiler.
 #pragma once
 
+#include <tessera/kernel-cache.h>
+
 #include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
 
 #include "host/kernels/compiler-tools.h"
-#include <tessera/kernel-cache.h>
 
 namespace tessera {
 

@@ -1,6 +1,7 @@
 #include "host/kernels/slang-sources.h"
 
 #include <fmt/format.h>
+#include <tessera/error.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -8,8 +9,6 @@
 #include <fstream>
 #include <string_view>
 #include <vector>
-
-#include <tessera/error.h>
 
 namespace tessera {
 namespace {

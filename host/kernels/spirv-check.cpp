@@ -1,11 +1,11 @@
 #include <fmt/format.h>
+#include <tessera/kernel-cache.h>
 
 #include <algorithm>
 #include <array>
 #include <map>
 #include <set>
 
-#include <tessera/kernel-cache.h>
 #include "host/kernels/spirv.h"
 
 namespace tessera {

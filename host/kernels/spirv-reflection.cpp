@@ -1,6 +1,7 @@
 #include "host/kernels/spirv-reflection.h"
 
 #include <fmt/format.h>
+#include <tessera/error.h>
 
 #include <map>
 #include <optional>
@@ -8,7 +9,6 @@
 #include <string>
 #include <utility>
 
-#include <tessera/error.h>
 #include "host/kernels/spirv.h"
 
 namespace tessera {

@@ -1,10 +1,10 @@
 // The interface of a kernel that came without slangc's reflection JSON, from the SPIR-V module itself.
 #pragma once
 
+#include <tessera/kernel.h>
+
 #include <cstdint>
 #include <vector>
-
-#include <tessera/kernel.h>
 
 namespace tessera {
 

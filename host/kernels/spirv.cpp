@@ -1,11 +1,11 @@
 #include "host/kernels/spirv.h"
 
 #include <fmt/format.h>
+#include <tessera/error.h>
 
 #include <algorithm>
 #include <fstream>
 
-#include <tessera/error.h>
 #include "host/support/files.h"
 
 namespace tessera {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <tessera/error.h>
 
 #include <algorithm>
 #include <map>
@@ -9,7 +10,6 @@
 #include <regex>
 #include <vector>
 
-#include <tessera/error.h>
 #include "host/kernels/slang-sources.h"
 
 namespace tessera {

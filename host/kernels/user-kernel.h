@@ -1,11 +1,11 @@
 // Kernels that a user brings in place of a stage's own: Slang, HLSL or GLSL, bound by reflection like any other.
 #pragma once
 
-#include <filesystem>
-#include <string>
-
 #include <tessera/kernel-cache.h>
 #include <tessera/kernel.h>
+
+#include <filesystem>
+#include <string>
 
 namespace tessera {
 

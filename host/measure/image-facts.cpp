@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <tessera/input.h>
 
 #include <algorithm>
 #include <string>
 #include <vector>
 
-#include <tessera/input.h>
 #include "host/build-info.h"
 #include "host/support/matrix.h"
 

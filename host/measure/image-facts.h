@@ -2,6 +2,7 @@
 #pragma once
 
 #include <tessera/image.h>
+
 #include "host/measure/row.h"
 
 namespace tessera {

@@ -3,6 +3,7 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <sys/utsname.h>
+#include <tessera/input.h>
 
 #include <algorithm>
 #include <chrono>
@@ -11,7 +12,6 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include <tessera/input.h>
 #include "host/build-info.h"
 #include "host/support/terminal.h"
 

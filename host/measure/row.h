@@ -1,19 +1,19 @@
 // One run as one line of JSON: what experiments keep, plot and compare.
 #pragma once
 
+#include <tessera/device.h>
+#include <tessera/error.h>
+#include <tessera/image.h>
+#include <tessera/oracle.h>
+#include <tessera/rasterizer.h>
+#include <tessera/scene.h>
+
 #include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
-
-#include <tessera/device.h>
-#include <tessera/error.h>
-#include <tessera/image.h>
-#include <tessera/rasterizer.h>
-#include <tessera/oracle.h>
-#include <tessera/scene.h>
 
 namespace tessera {
 
@@ -26,10 +26,10 @@ struct Run {
   Variant variant;            ///< resolved by the plan where there is one, else as it was asked for
   const Scene* scene = nullptr;
   DeviceInfo device;
-  std::vector<FrameTimes> samples;                          ///< one a timed frame, raw
-  std::optional<Difference> difference;                     ///< from the oracle
-  std::optional<std::uint64_t> wrongWinners;  ///< pixels whose triangle is not the oracle's: by id, else by colour
-  std::optional<std::uint64_t> hitCountNotOne;              ///< pixels that are hit, but not once; of commit=count
+  std::vector<FrameTimes> samples;              ///< one a timed frame, raw
+  std::optional<Difference> difference;         ///< from the oracle
+  std::optional<std::uint64_t> wrongWinners;    ///< pixels whose triangle is not the oracle's: by id, else by colour
+  std::optional<std::uint64_t> hitCountNotOne;  ///< pixels that are hit, but not once; of commit=count
   std::optional<reference::AttributeError> attributeError;  ///< from the exact value
   std::optional<ValueRange> attributeRange;                 ///< that was asked for
   Counters counters;

@@ -1,4 +1,6 @@
 // The contract's section Attributes, in float32 and exactly.
+#include <tessera/oracle.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -9,7 +11,6 @@
 #include "host/oracle/reference-clip.h"
 #include "host/oracle/reference-exact.h"
 #include "host/oracle/reference-project.h"
-#include <tessera/oracle.h>
 
 namespace tessera::reference {
 namespace {

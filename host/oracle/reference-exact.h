@@ -1,9 +1,9 @@
 // The oracle's numbers, and its edge function.
 #pragma once
 
-#include <cstdint>
-
 #include <tessera/oracle.h>
+
+#include <cstdint>
 
 namespace tessera::reference {
 

@@ -1,4 +1,6 @@
 // The contract's sections Transform, Dropped, Project, Snap and Orient.
+#include <tessera/oracle.h>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -6,7 +8,6 @@
 
 #include "host/oracle/reference-clip.h"
 #include "host/oracle/reference-project.h"
-#include <tessera/oracle.h>
 
 namespace tessera::reference {
 namespace {

@@ -1,11 +1,11 @@
 // The contract's sections Project and Snap.
 #pragma once
 
+#include <tessera/oracle.h>
+
 #include <cstdint>
 #include <glm/vec4.hpp>
 #include <optional>
-
-#include <tessera/oracle.h>
 
 namespace tessera::reference {
 

@@ -1,13 +1,13 @@
 // A value for each axis: the one asked for, or the first that goes with the others and with the device.
 #pragma once
 
+#include <tessera/device.h>
+#include <tessera/variant.h>
+
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include <tessera/device.h>
-#include <tessera/variant.h>
 
 namespace tessera {
 

@@ -1,26 +1,28 @@
-#include <tessera/plan.h>
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <tessera/error.h>
+#include <tessera/plan.h>
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 
 #include "host/plan/choice.h"
-#include <tessera/error.h>
 #include "host/plan/plan-scene.h"
 
 namespace tessera {
 namespace {
 
-constexpr double kMostBoxes = 4294967296.0;     // that aabb-scan tests in a frame: some seconds on two cores
+constexpr double kMostBoxes = 4294967296.0;      // that aabb-scan tests in a frame: some seconds on two cores
 constexpr double kMostMaskBytes = 4294967296.0;  // that bitmask takes
 
 class Planner {
  public:
   Planner(const Scene& scene, const Variant& asked, const DeviceInfo& device)
-      : scene_(scene), asked_(asked), device_(device), choice_(asked, device),
+      : scene_(scene),
+        asked_(asked),
+        device_(device),
+        choice_(asked, device),
         full_(asked.get("plan", "planned") == "full") {}
 
   Plan run() {
@@ -88,8 +90,9 @@ class Planner {
     if (binning == "aabb-scan") checkScan(tiles, triangles);
     if (binning == "bitmask") checkMask(tiles, triangles);
     choice_.take("tile-test", {"edges", "box"});
-    choice_.take("capacity",
-                 {std::to_string(std::bit_ceil(static_cast<unsigned>(std::clamp(4 * triangles / tiles, 16.0, 32768.0))))});
+    choice_.take(
+        "capacity",
+        {std::to_string(std::bit_ceil(static_cast<unsigned>(std::clamp(4 * triangles / tiles, 16.0, 32768.0))))});
     choice_.take("overflow", {"retry"});
     const std::string none = "no lists of pieces (binning=" + binning + ")";
     note("bin-count, scan", binning == "exact",
@@ -103,20 +106,23 @@ class Planner {
 
   void checkScan(double tiles, double triangles) const {
     if (tiles * triangles > kMostBoxes)
-      failUsage(fmt::format("binning=aabb-scan: {} tiles would go through {} boxes each, {:.1e} a frame; up to {:.1e} "
-                            "would be taken: set a larger tile, or binning=exact",
-                            tiles, triangles, tiles * triangles, kMostBoxes));
+      failUsage(
+          fmt::format("binning=aabb-scan: {} tiles would go through {} boxes each, {:.1e} a frame; up to {:.1e} "
+                      "would be taken: set a larger tile, or binning=exact",
+                      tiles, triangles, tiles * triangles, kMostBoxes));
   }
   void checkMask(double tiles, double triangles) const {
     const double bytes = tiles * std::ceil(triangles / 32) * 4;
     if (bytes > kMostMaskBytes)
-      failUsage(fmt::format("binning=bitmask: a bit for each of {} tiles and {} triangles takes {:.1f} GiB; up to "
-                            "{:.0f} GiB would be taken: set a larger tile, or binning=exact",
-                            tiles, triangles, bytes / 0x1p30, kMostMaskBytes / 0x1p30));
+      failUsage(
+          fmt::format("binning=bitmask: a bit for each of {} tiles and {} triangles takes {:.1f} GiB; up to "
+                      "{:.0f} GiB would be taken: set a larger tile, or binning=exact",
+                      tiles, triangles, bytes / 0x1p30, kMostMaskBytes / 0x1p30));
     if (bytes > double(device_.maxBufferBytes))
-      failUnsupported(fmt::format("binning=bitmask: a bit for each of {} tiles and {} triangles takes {:.0f} MiB, the "
-                                  "largest buffer of {} holds {:.0f}; set a larger tile, or binning=exact",
-                                  tiles, triangles, bytes / 0x1p20, device_.name, double(device_.maxBufferBytes) / 0x1p20));
+      failUnsupported(
+          fmt::format("binning=bitmask: a bit for each of {} tiles and {} triangles takes {:.0f} MiB, the "
+                      "largest buffer of {} holds {:.0f}; set a larger tile, or binning=exact",
+                      tiles, triangles, bytes / 0x1p20, device_.name, double(device_.maxBufferBytes) / 0x1p20));
   }
 
   void raster() {
@@ -130,9 +136,10 @@ class Planner {
                                   choice_.resolved().get("tile"), commit.name, groupMemory, device_.name,
                                   device_.maxGroupBytes));
     if (commit.name == "depth16+id16" && scene_.triangles.size() > 65535)
-      failUsage(fmt::format("commit=depth16+id16: 16 bits tell 65535 triangles apart, the scene has {}; set "
-                            "commit=depth32+id32 or two-pass",
-                            scene_.triangles.size()));
+      failUsage(
+          fmt::format("commit=depth16+id16: 16 bits tell 65535 triangles apart, the scene has {}; set "
+                      "commit=depth32+id32 or two-pass",
+                      scene_.triangles.size()));
     plan_.clear = full_ || !commit.has(kWritesTiles);
     plan_.resolve = commit.has(kResolves);
     note("clear", plan_.clear,
@@ -178,8 +185,8 @@ class Planner {
          plan_.attribute ? "a raster of the values of " + scene_.attributeName : "no values asked for (attribute)");
     if (!plan_.attribute) return;
     if (scene_.attribute.size() != scene_.vertexCount())
-      failUsage(fmt::format("attribute {}: {} values for {} vertices; one a vertex would be right", scene_.attributeName,
-                            scene_.attribute.size(), scene_.vertexCount()));
+      failUsage(fmt::format("attribute {}: {} values for {} vertices; one a vertex would be right",
+                            scene_.attributeName, scene_.attribute.size(), scene_.vertexCount()));
     const std::string commit = choice_.resolved().get("commit");
     if (plan_.payload || commit == "count")
       failUsage(fmt::format("attribute {}: commit={} keeps no ids to interpolate by; leave commit unset",

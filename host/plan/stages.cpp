@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <tessera/error.h>
 
 #include <algorithm>
 #include <stdexcept>
 
-#include <tessera/error.h>
 #include "host/kernels/user-kernel.h"
 
 namespace tessera {

@@ -1,12 +1,12 @@
 // The stages of the pipeline and the kernels that run them.
 #pragma once
 
+#include <tessera/kernel-cache.h>
+#include <tessera/plan.h>
+
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include <tessera/kernel-cache.h>
-#include <tessera/plan.h>
 
 namespace tessera {
 

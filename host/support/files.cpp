@@ -3,13 +3,13 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
+#include <tessera/error.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstdlib>
 #include <system_error>
 
-#include <tessera/error.h>
 #include "host/support/output-place.h"
 #include "host/support/temporary.h"
 

@@ -1,9 +1,9 @@
 #include <fmt/format.h>
+#include <tessera/error.h>
 #include <unistd.h>
 
 #include <map>
 
-#include <tessera/error.h>
 #include "host/support/files.h"
 #include "host/support/output-place.h"
 

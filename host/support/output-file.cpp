@@ -1,6 +1,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
+#include <tessera/error.h>
 #include <unistd.h>
 
 #include <array>
@@ -8,7 +9,6 @@
 #include <cstdio>
 #include <system_error>
 
-#include <tessera/error.h>
 #include "host/support/files.h"
 #include "host/support/output-place.h"
 #include "host/support/temporary.h"

@@ -1,13 +1,13 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
+#include <tessera/error.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <chrono>
 #include <thread>
 
-#include <tessera/error.h>
 #include "host/support/files.h"
 #include "host/support/output-place.h"
 

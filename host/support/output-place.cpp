@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <linux/stat.h>
 #include <poll.h>
+#include <tessera/error.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -13,8 +14,6 @@
 #include <cstdio>
 #include <system_error>
 #include <thread>
-
-#include <tessera/error.h>
 
 namespace tessera {
 namespace {

@@ -3,14 +3,15 @@
 #include <fmt/format.h>
 #include <pwd.h>
 #include <sys/stat.h>
+#include <tessera/error.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <system_error>
 
-#include <tessera/error.h>
 #include "host/support/output-place.h"
 #include "host/support/temporary.h"
+#include "host/support/text.h"
 
 namespace tessera {
 namespace {
@@ -27,6 +28,13 @@ std::string userName(uid_t user) {
 }
 
 }  // namespace
+
+fs::path defaultCacheFolder() {
+  if (const std::string folder = environment("TESSERA_CACHE"); !folder.empty()) return folder;
+  if (const std::string folder = environment("XDG_CACHE_HOME"); !folder.empty()) return fs::path(folder) / "tessera";
+  if (const std::string folder = environment("HOME"); !folder.empty()) return fs::path(folder) / ".cache" / "tessera";
+  failUsage("no folder for compiled kernels: set TESSERA_CACHE (XDG_CACHE_HOME and HOME are not set either)");
+}
 
 void checkOwn(const fs::path& path) {
   struct stat about {};

@@ -7,6 +7,9 @@
 
 namespace tessera {
 
+/// $TESSERA_CACHE, else $XDG_CACHE_HOME/tessera, else ~/.cache/tessera. Throws kUsage where none of them is set.
+std::filesystem::path defaultCacheFolder();
+
 /// Throws kUsage, with what would do, if somebody else than this user and root owns `path` or may write it. What is not
 /// there is fine.
 void checkOwn(const std::filesystem::path& path);

@@ -1,12 +1,12 @@
 // Running another program and keeping what it says. No shell: arguments reach the program as they are.
 #pragma once
 
+#include <tessera/error.h>
+
 #include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include <tessera/error.h>
 
 namespace tessera {
 

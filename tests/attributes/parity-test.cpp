@@ -1,13 +1,14 @@
 // The attribute stage against the oracle, bit for bit: on each machine, in perspective and not, whole and cut.
+#include <tessera/cpu-device.h>
+#include <tessera/error.h>
+#include <tessera/input.h>
+
 #include <bit>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 
-#include <tessera/input.h>
 #include "datasets/random.h"
-#include <tessera/cpu-device.h>
-#include <tessera/error.h>
 #include "tests/support/compare.h"
 #include "tests/support/cut-device.h"
 #include "tests/support/machines.h"

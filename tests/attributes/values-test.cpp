@@ -1,12 +1,13 @@
 // Values by hand: what an orthographic and a perspective raster of values hold, how far from exact, and the cells of an
 // integer-vertex height field.
+#include <tessera/input.h>
+#include <tessera/oracle.h>
+
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
 
-#include <tessera/input.h>
-#include <tessera/oracle.h>
 #include "tests/reference/in-pixels.h"
 #include "tests/support/compare.h"
 #include "tests/support/machines.h"

@@ -1,5 +1,6 @@
 // Scenes far from 0: one origin a scene is taken from double coordinates before they are rounded.
 #include <fmt/format.h>
+#include <tessera/oracle.h>
 
 #include <bit>
 #include <cmath>
@@ -10,7 +11,6 @@
 #include "datasets/extent.h"
 #include "fixture.h"
 #include "host/frame/lighting.h"
-#include <tessera/oracle.h>
 
 using namespace tessera;
 

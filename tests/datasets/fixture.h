@@ -1,13 +1,14 @@
 // Files made for one test, and the one line that bad input must give.
 #pragma once
 
+#include <tessera/error.h>
+#include <tessera/input.h>
+
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <string>
 #include <string_view>
 
-#include <tessera/input.h>
-#include <tessera/error.h>
 #include "host/support/files.h"
 
 namespace tessera {

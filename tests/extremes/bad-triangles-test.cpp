@@ -1,11 +1,11 @@
 // Triangles that cannot be drawn, among others that can.
 #include <fmt/format.h>
+#include <tessera/input.h>
 
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 
-#include <tessera/input.h>
 #include "tests/support/compare.h"
 #include "tests/support/machines.h"
 #include "tests/support/random-scene.h"

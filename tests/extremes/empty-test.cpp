@@ -1,8 +1,9 @@
 // Scenes of nothing.
+#include <tessera/input.h>
+
 #include <algorithm>
 #include <catch2/catch.hpp>
 
-#include <tessera/input.h>
 #include "tests/support/compare.h"
 #include "tests/support/machines.h"
 #include "tests/support/variants.h"

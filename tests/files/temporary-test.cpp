@@ -3,6 +3,7 @@
 
 #include <sys/stat.h>
 #include <sys/wait.h>
+#include <tessera/error.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -13,7 +14,6 @@
 #include <vector>
 
 #include "fixture.h"
-#include <tessera/error.h>
 #include "tests/support/error-line.h"
 
 namespace tessera::test {

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <signal.h>
 #include <sys/resource.h>
+#include <tessera/error.h>
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
@@ -13,7 +14,6 @@
 #include <cstring>
 #include <fstream>
 
-#include <tessera/error.h>
 #include "mutate.h"
 #include "seeds.h"
 

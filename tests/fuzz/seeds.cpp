@@ -1,16 +1,17 @@
 #include "seeds.h"
 
+#include <tessera/error.h>
+#include <tessera/image.h>
+#include <tessera/input.h>
+
 #include <bit>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include <tessera/input.h>
 #include "datasets/text.h"
 #include "experiments/harness/cells.h"
 #include "experiments/harness/journal.h"
-#include <tessera/error.h>
-#include <tessera/image.h>
 #include "host/measure/row.h"
 #include "tests/sweep/small-journal.h"
 

@@ -1,10 +1,10 @@
 // Differences of two framebuffers, in numbers and as a picture.
+#include <tessera/error.h>
+#include <tessera/image.h>
+
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
-
-#include <tessera/error.h>
-#include <tessera/image.h>
 
 using namespace tessera;
 

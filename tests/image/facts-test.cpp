@@ -1,6 +1,8 @@
 // What images say about what they depend on, and that two devices write one file.
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
+#include <tessera/image.h>
+#include <tessera/input.h>
 
 #include <array>
 #include <catch2/catch.hpp>
@@ -11,9 +13,7 @@
 #include <sstream>
 
 #include "command.h"
-#include <tessera/input.h>
 #include "host/support/files.h"
-#include <tessera/image.h>
 
 using namespace tessera;
 using Catch::Matchers::Contains;

@@ -1,6 +1,8 @@
 // A disk that is full: the image is an error, wherever in the file the room ends, and the old file stays.
 #include <sys/mount.h>
 #include <sys/resource.h>
+#include <tessera/error.h>
+#include <tessera/image.h>
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
@@ -10,9 +12,7 @@
 #include <iterator>
 
 #include "command.h"
-#include <tessera/error.h>
 #include "host/support/files.h"
-#include <tessera/image.h>
 
 using namespace tessera;
 using Catch::Matchers::Contains;

@@ -1,7 +1,7 @@
 // Framebuffers to files and back, and every way in which that can fail.
-#include <tessera/image.h>
-
 #include <OpenImageIO/imageio.h>
+#include <tessera/error.h>
+#include <tessera/image.h>
 
 #include <algorithm>
 #include <bit>
@@ -12,7 +12,6 @@
 #include <iterator>
 #include <random>
 
-#include <tessera/error.h>
 #include "host/support/files.h"
 
 using namespace tessera;

@@ -1,4 +1,7 @@
 // Small files that ask for a lot, and headers that do not hold together: refused from their header, in one line.
+#include <tessera/error.h>
+#include <tessera/image.h>
+
 #include <catch2/catch.hpp>
 #include <cstdint>
 #include <cstring>
@@ -6,9 +9,7 @@
 #include <fstream>
 #include <string>
 
-#include <tessera/error.h>
 #include "host/support/files.h"
-#include <tessera/image.h>
 
 using namespace tessera;
 using Catch::Matchers::Contains;

@@ -11,6 +11,15 @@ endfunction()
 
 file(REMOVE_RECURSE ${WORK})
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix)
+# Each public header stands alone, and all are in the one that a program includes.
+file(GLOB headers RELATIVE ${WORK}/prefix/include ${WORK}/prefix/include/tessera/*.h)
+file(READ ${WORK}/prefix/include/tessera/tessera.h all)
+foreach(header ${headers})
+  run(${COMPILER} -std=c++20 -Wall -Wextra -Werror -fsyntax-only -I ${WORK}/prefix/include -include ${header} -x c++ /dev/null)
+  if(NOT header STREQUAL "tessera/tessera.h" AND NOT all MATCHES "#include <${header}>")
+    message(FATAL_ERROR "<tessera/tessera.h> leaves out ${header}")
+  endif()
+endforeach()
 run(${CMAKE_COMMAND} -G Ninja -S ${PROGRAM} -B ${WORK}/build -DCMAKE_PREFIX_PATH=${WORK}/prefix
     -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_CXX_FLAGS=${FLAGS})
 run(${CMAKE_COMMAND} --build ${WORK}/build)

@@ -6,8 +6,9 @@
 #include <xmmintrin.h>
 #endif
 
-#include "fixture.h"
 #include <tessera/cpu-device.h>
+
+#include "fixture.h"
 
 namespace tessera::test {
 namespace {

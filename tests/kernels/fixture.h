@@ -1,11 +1,12 @@
 // A folder of its own for each test: Slang sources, which tests change, and a kernel cache.
 #pragma once
 
+#include <tessera/kernel-cache.h>
+
 #include <filesystem>
 #include <string>
 
 #include "host/support/files.h"
-#include <tessera/kernel-cache.h>
 #include "tests/support/error-line.h"
 
 namespace tessera::test {

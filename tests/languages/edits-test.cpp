@@ -5,8 +5,8 @@
 
 #include "fixture.h"
 #include "host/kernels/slang-sources.h"
-#include "host/plan/stages.h"
 #include "host/kernels/user-kernel.h"
+#include "host/plan/stages.h"
 
 using namespace tessera;
 using namespace tessera::test;

@@ -1,10 +1,11 @@
 #include "fixture.h"
 
+#include <tessera/cpu-device.h>
+#include <tessera/vulkan-device.h>
+
 #include <fstream>
 
-#include <tessera/cpu-device.h>
 #include "host/kernels/slang-sources.h"
-#include <tessera/vulkan-device.h>
 
 namespace tessera::test {
 

@@ -1,13 +1,14 @@
 // Kernels that a user brings, in files of a folder that a test makes.
 #pragma once
 
+#include <tessera/rasterizer.h>
+
 #include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "host/support/files.h"
-#include <tessera/rasterizer.h>
 #include "tests/support/error-line.h"
 #include "tests/support/machines.h"
 

@@ -1,21 +1,21 @@
 // Prints the table of host/languages.md: each stage written for each target, and what the target's judge says.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <tessera/error.h>
+#include <tessera/input.h>
+#include <tessera/plan.h>
 
 #include <algorithm>
 #include <fstream>
 #include <future>
 #include <regex>
 
-#include <tessera/input.h>
+#include "host/devices/vulkan/spirv-module.h"
 #include "host/kernels/emit.h"
-#include <tessera/error.h>
-#include "host/support/files.h"
-#include <tessera/plan.h>
 #include "host/kernels/spirv.h"
 #include "host/plan/stages.h"
+#include "host/support/files.h"
 #include "host/support/subprocess.h"
-#include "host/devices/vulkan/spirv-module.h"
 
 namespace tessera {
 namespace {

@@ -1,15 +1,16 @@
 // manifest.json: a host that knows nothing else runs the WGSL by it and gets the oracle's bits; its formulas are those
 // of the frame that it holds.
+#include <tessera/input.h>
+#include <tessera/oracle.h>
+
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
 #include <regex>
 
-#include <tessera/input.h>
 #include "fixture.h"
 #include "host/oracle/oracle-image.h"
-#include <tessera/oracle.h>
 #include "host/support/subprocess.h"
 #include "tests/cli/run-tessera.h"
 

@@ -1,11 +1,11 @@
 // Watertight: a sample inside a closed mesh is hit exactly once, on each path.
 #include <fmt/format.h>
+#include <tessera/input.h>
 
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <functional>
 
-#include <tessera/input.h>
 #include "tests/support/compare.h"
 #include "tests/support/machines.h"
 #include "tests/support/variants.h"

@@ -1,7 +1,8 @@
 // Many triangles in one place, and one triangle over many tiles.
+#include <tessera/input.h>
+
 #include <catch2/catch.hpp>
 
-#include <tessera/input.h>
 #include "tests/support/compare.h"
 #include "tests/support/machines.h"
 #include "tests/support/variants.h"

@@ -2,11 +2,11 @@
 #include "tests/support/meshes.h"
 
 #include <fmt/format.h>
+#include <tessera/input.h>
 
 #include <catch2/catch.hpp>
 
 #include "datasets/generators.h"
-#include <tessera/input.h>
 #include "tests/support/compare.h"
 #include "tests/support/machines.h"
 #include "tests/support/variants.h"

@@ -1,11 +1,12 @@
 // 500 random scenes against the oracle, 4,000 behind the label long: on each machine every scene, under variants that take turns.
+#include <tessera/error.h>
+
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <map>
 
 #include "datasets/random.h"
-#include <tessera/error.h>
 #include "tests/support/compare.h"
 #include "tests/support/machines.h"
 #include "tests/support/random-scene.h"

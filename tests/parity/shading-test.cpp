@@ -1,9 +1,10 @@
 // Colours: the same bits on every machine, and the right ones.
+#include <tessera/input.h>
+
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include <tessera/input.h>
 #include "host/frame/lighting.h"
 #include "tests/support/compare.h"
 #include "tests/support/machines.h"

@@ -1,7 +1,8 @@
 // Each implementation value alone on SwiftShader, whose compiler takes a second and more over each raster kernel.
+#include <tessera/input.h>
+
 #include <catch2/catch.hpp>
 
-#include <tessera/input.h>
 #include "tests/support/compare.h"
 #include "tests/support/machines.h"
 #include "tests/support/variants.h"

@@ -1,11 +1,12 @@
 // The oracle's clipping: each plane by hand, shared edges, rasters and triangles as large as they get.
+#include <tessera/oracle.h>
+
 #include <algorithm>
 #include <bit>
 #include <catch2/catch.hpp>
 #include <random>
 
 #include "host/oracle/reference-clip.h"
-#include <tessera/oracle.h>
 #include "tests/reference/in-pixels.h"
 
 using namespace tessera;

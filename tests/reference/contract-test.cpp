@@ -1,4 +1,6 @@
 // The oracle, section by section of the contract in rasterizer.h: projection, snapping, orientation, order, depth.
+#include <tessera/oracle.h>
+
 #include <algorithm>
 #include <bit>
 #include <catch2/catch.hpp>
@@ -6,7 +8,6 @@
 #include <limits>
 #include <random>
 
-#include <tessera/oracle.h>
 #include "tests/reference/in-pixels.h"
 
 using namespace tessera;

@@ -1,11 +1,12 @@
 // The oracle's coverage: the top-left rule by hand, closed surfaces hit once, intervals against pixel-by-pixel tests.
+#include <tessera/oracle.h>
+
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
 #include <random>
 
-#include <tessera/oracle.h>
 #include "tests/reference/in-pixels.h"
 
 using namespace tessera;

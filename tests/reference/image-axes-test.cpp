@@ -1,4 +1,6 @@
 // The oracle under the image axes: inclusive fill, sub-pixel bits, ways of interpolating depth.
+#include <tessera/oracle.h>
+
 #include <algorithm>
 #include <bit>
 #include <catch2/catch.hpp>
@@ -6,7 +8,6 @@
 #include <random>
 
 #include "host/oracle/oracle-image.h"
-#include <tessera/oracle.h>
 #include "tests/reference/in-pixels.h"
 
 using namespace tessera;

@@ -1,10 +1,10 @@
 // Scenes from positions in pixels, so that a test can be checked with pencil and paper.
 #pragma once
 
+#include <tessera/scene.h>
+
 #include <cstdint>
 #include <vector>
-
-#include <tessera/scene.h>
 
 namespace tessera {
 

@@ -1,6 +1,7 @@
 // Every mesh that comes with the project, and some that are hard to write, through the writers of a second library and
 // back: the same triangles, in every bit that a format keeps.
 #include <fmt/format.h>
+#include <tessera/input.h>
 
 #include <bit>
 #include <catch2/catch.hpp>
@@ -8,7 +9,6 @@
 #include <fstream>
 #include <map>
 
-#include <tessera/input.h>
 #include "host/support/files.h"
 #include "host/support/subprocess.h"
 

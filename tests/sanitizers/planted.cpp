@@ -1,13 +1,12 @@
 // Runs one faulty kernel on the CPU device: planted KERNEL.
 #include <fmt/format.h>
+#include <tessera/cpu-device.h>
+#include <tessera/error.h>
+#include <tessera/kernel-cache.h>
 
 #include <array>
 #include <cstring>
 #include <vector>
-
-#include <tessera/cpu-device.h>
-#include <tessera/error.h>
-#include <tessera/kernel-cache.h>
 
 int main(int argc, char** argv) try {
   using namespace tessera;

@@ -1,6 +1,7 @@
 #include "all-kernels.h"
 
 #include <fmt/format.h>
+#include <tessera/error.h>
 
 #include <algorithm>
 #include <glm/vec2.hpp>
@@ -9,11 +10,10 @@
 #include <set>
 #include <sstream>
 
-#include <tessera/error.h>
-#include "host/support/files.h"
-#include "host/kernels/spirv.h"
-#include "host/support/subprocess.h"
 #include "host/devices/vulkan/spirv-module.h"
+#include "host/kernels/spirv.h"
+#include "host/support/files.h"
+#include "host/support/subprocess.h"
 #include "tests/support/covering.h"
 
 namespace tessera::test {

@@ -1,12 +1,13 @@
 // The validation layer has nothing to say about frames of every kind.
+#include <tessera/error.h>
+#include <tessera/input.h>
+#include <tessera/rasterizer.h>
+#include <tessera/vulkan-device.h>
+
 #include <catch2/catch.hpp>
 
 #include "all-kernels.h"
-#include <tessera/input.h>
-#include <tessera/error.h>
-#include <tessera/rasterizer.h>
 #include "host/measure/row.h"
-#include <tessera/vulkan-device.h>
 #include "tests/support/variants.h"
 
 using namespace tessera;

@@ -1,9 +1,10 @@
 // Approximate values err where theory says so, within the bound that their files derive, and alike on every device.
+#include <tessera/input.h>
+
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include <tessera/input.h>
 #include "datasets/random.h"
 #include "host/oracle/oracle-image.h"
 #include "tests/support/compare.h"

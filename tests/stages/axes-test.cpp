@@ -1,5 +1,8 @@
 // Each value of each axis is seen at work: it has kernels of its own, or another way through the host, and a counter or
 // an image shows it.
+#include <tessera/error.h>
+#include <tessera/kernel-cache.h>
+
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <map>
@@ -7,8 +10,6 @@
 #include <set>
 
 #include "evidence.h"
-#include <tessera/error.h>
-#include <tessera/kernel-cache.h>
 #include "host/kernels/slang-sources.h"
 #include "host/kernels/spirv.h"
 #include "host/plan/stages.h"

@@ -1,12 +1,12 @@
 // Frames that the host has to cut into bands of rows and batches of triangles, for a device that has less: the bits of
 // one piece.
 #include <fmt/format.h>
+#include <tessera/cpu-device.h>
+#include <tessera/error.h>
+#include <tessera/input.h>
 
 #include <catch2/catch.hpp>
 
-#include <tessera/input.h>
-#include <tessera/cpu-device.h>
-#include <tessera/error.h>
 #include "tests/support/compare.h"
 #include "tests/support/cut-device.h"
 #include "tests/support/machines.h"

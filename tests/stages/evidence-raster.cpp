@@ -1,5 +1,6 @@
-#include "evidence-scenes.h"
 #include <tessera/kernel-cache.h>
+
+#include "evidence-scenes.h"
 #include "host/kernels/spirv.h"
 #include "host/plan/stages.h"
 

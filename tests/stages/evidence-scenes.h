@@ -1,12 +1,13 @@
 // What the evidence is gathered from.
 #pragma once
 
+#include <tessera/error.h>
+#include <tessera/input.h>
+
 #include <algorithm>
 #include <catch2/catch.hpp>
 
-#include <tessera/input.h>
 #include "evidence.h"
-#include <tessera/error.h>
 #include "tests/support/compare.h"
 #include "tests/support/machines.h"
 

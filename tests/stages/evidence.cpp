@@ -1,10 +1,10 @@
-#include "evidence-scenes.h"
+#include <tessera/error.h>
+#include <tessera/input.h>
 
 #include <algorithm>
 #include <catch2/catch.hpp>
 
-#include <tessera/input.h>
-#include <tessera/error.h>
+#include "evidence-scenes.h"
 #include "tests/support/compare.h"
 #include "tests/support/machines.h"
 

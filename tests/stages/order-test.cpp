@@ -1,12 +1,12 @@
 // Neither order nor the number of threads nor repetition changes a bit.
 #include <fmt/format.h>
+#include <tessera/cpu-device.h>
+#include <tessera/input.h>
 
 #include <algorithm>
 #include <catch2/catch.hpp>
 
-#include <tessera/input.h>
 #include "datasets/random.h"
-#include <tessera/cpu-device.h>
 #include "tests/support/compare.h"
 #include "tests/support/machines.h"
 #include "tests/support/variants.h"

@@ -1,9 +1,10 @@
 // What each stage writes: equal on all machines, and as the oracle's where it has the same.
+#include <tessera/input.h>
+
 #include <bit>
 #include <catch2/catch.hpp>
 #include <cstring>
 
-#include <tessera/input.h>
 #include "tests/support/compare.h"
 #include "tests/support/machines.h"
 #include "tests/support/random-scene.h"

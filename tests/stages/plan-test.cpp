@@ -1,9 +1,10 @@
 // What the plan leaves out: the same bits without it, and each switch seen in both positions.
+#include <tessera/input.h>
+
 #include <catch2/catch.hpp>
 #include <map>
 #include <set>
 
-#include <tessera/input.h>
 #include "tests/support/compare.h"
 #include "tests/support/machines.h"
 #include "tests/support/random-scene.h"

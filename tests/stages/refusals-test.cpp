@@ -1,11 +1,12 @@
 // Variants that a scene or a device cannot have: the exit code of its kind, and a line that says which axis and value,
 // why, and what would do.
+#include <tessera/error.h>
+#include <tessera/input.h>
+#include <tessera/plan.h>
+
 #include <catch2/catch.hpp>
 
-#include <tessera/input.h>
 #include "host/plan/choice.h"
-#include <tessera/error.h>
-#include <tessera/plan.h>
 
 using namespace tessera;
 

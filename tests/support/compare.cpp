@@ -1,11 +1,10 @@
 #include "compare.h"
 
 #include <fmt/format.h>
+#include <tessera/image.h>
 
 #include <algorithm>
 #include <bit>
-
-#include <tessera/image.h>
 
 namespace tessera {
 namespace {

@@ -1,12 +1,13 @@
 // Frames against the oracle, told in one line.
 #pragma once
 
+#include <tessera/framebuffer.h>
+#include <tessera/oracle.h>
+#include <tessera/rasterizer.h>
+
 #include <string>
 
-#include <tessera/framebuffer.h>
 #include "host/oracle/oracle-image.h"
-#include <tessera/rasterizer.h>
-#include <tessera/oracle.h>
 
 namespace tessera {
 

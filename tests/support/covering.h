@@ -2,12 +2,12 @@
 // system", IEEE Transactions on Software Engineering 23(7), 1997, for testing by them).
 #pragma once
 
+#include <tessera/variant.h>
+
 #include <functional>
 #include <string>
 #include <utility>
 #include <vector>
-
-#include <tessera/variant.h>
 
 namespace tessera {
 

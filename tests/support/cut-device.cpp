@@ -1,7 +1,6 @@
 #include "cut-device.h"
 
 #include <fmt/format.h>
-
 #include <tessera/error.h>
 
 namespace tessera {

@@ -1,9 +1,9 @@
 // A device that says it is smaller than it is, so that the host has to cut a frame.
 #pragma once
 
-#include <memory>
-
 #include <tessera/device.h>
+
+#include <memory>
 
 namespace tessera {
 

@@ -1,10 +1,10 @@
 // The one line that bad input gets.
 #pragma once
 
+#include <tessera/error.h>
+
 #include <functional>
 #include <string>
-
-#include <tessera/error.h>
 
 namespace tessera::test {
 

@@ -1,11 +1,11 @@
 #define CATCH_CONFIG_EXTERNAL_INTERFACES  // before Catch2 comes in: a listener below
 #include "machines.h"
 
-#include <cstdlib>
-#include <map>
-
 #include <tessera/cpu-device.h>
 #include <tessera/vulkan-device.h>
+
+#include <cstdlib>
+#include <map>
 
 namespace tessera {
 

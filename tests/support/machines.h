@@ -1,13 +1,13 @@
 // The machines that a test runs on: a test is written once as PLACE_TEST_CASE and registered for each.
 #pragma once
 
-#include <catch2/catch.hpp>
-#include <memory>
-#include <string>
-
 #include <tessera/device.h>
 #include <tessera/kernel-cache.h>
 #include <tessera/rasterizer.h>
+
+#include <catch2/catch.hpp>
+#include <memory>
+#include <string>
 
 namespace tessera {
 

@@ -1,10 +1,10 @@
 // Small scenes that go to the limits of the contract, the same for a seed on every machine.
 #pragma once
 
-#include <cstdint>
-
 #include <tessera/scene.h>
 #include <tessera/variant.h>
+
+#include <cstdint>
 
 namespace tessera {
 

@@ -1,9 +1,10 @@
 #include "variants.h"
 
+#include <tessera/error.h>
+
 #include <algorithm>
 #include <set>
 
-#include <tessera/error.h>
 #include "tests/support/covering.h"
 
 namespace tessera {

@@ -1,11 +1,11 @@
 // Variants to test, made from axes(): an axis or value that is added there is tested from then on.
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include <tessera/plan.h>
 #include <tessera/variant.h>
+
+#include <string>
+#include <vector>
 
 namespace tessera {
 

@@ -1,6 +1,8 @@
 // Two sweeps that were begun, or resumed, at once: the second leaves what the first has written as it is.
 #include "experiments/harness/journal.h"
 
+#include <tessera/error.h>
+
 #include <array>
 #include <catch2/catch.hpp>
 #include <fstream>
@@ -9,9 +11,8 @@
 #include "datasets/text.h"
 #include "experiments/harness/folder.h"
 #include "experiments/harness/rows.h"
-#include <tessera/error.h>
-#include "host/support/files.h"
 #include "host/measure/row.h"
+#include "host/support/files.h"
 #include "tests/sweep/small-journal.h"
 
 using namespace tessera;

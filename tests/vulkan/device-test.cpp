@@ -1,14 +1,14 @@
 // The promises of host/include/tessera/device.h on a Vulkan device, with memory mapped and copied, validation layer on.
+#include <tessera/error.h>
+#include <tessera/kernel-cache.h>
+#include <tessera/vulkan-device.h>
+
 #include <algorithm>
 #include <array>
 #include <catch2/catch.hpp>
 #include <cctype>
 #include <cstring>
 #include <numeric>
-
-#include <tessera/error.h>
-#include <tessera/kernel-cache.h>
-#include <tessera/vulkan-device.h>
 
 using namespace tessera;
 

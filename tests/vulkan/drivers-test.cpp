@@ -1,9 +1,10 @@
 // Drivers that do not load: the message names the variable, its value and the cause, and never blames memory.
+#include <tessera/error.h>
+#include <tessera/vulkan-device.h>
+
 #include <catch2/catch.hpp>
 #include <cstdlib>
 
-#include <tessera/error.h>
-#include <tessera/vulkan-device.h>
 #include "tests/cli/run-tessera.h"
 
 using namespace tessera::test;

@@ -1,6 +1,8 @@
 // The start-up probe passes on the CPU, and sees what it is there to see.
+#include <tessera/cpu-device.h>
+#include <tessera/kernel-cache.h>
 #include <tessera/probe.h>
-
+#include <tessera/vulkan-device.h>
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
@@ -9,9 +11,6 @@
 #include <fstream>
 #include <sstream>
 
-#include <tessera/cpu-device.h>
-#include <tessera/kernel-cache.h>
-#include <tessera/vulkan-device.h>
 #include "tests/support/machines.h"
 
 using namespace tessera;

@@ -1,10 +1,11 @@
 // What is planned for a device without 64-bit types asks for none: no stage's SPIR-V declares one.
+#include <tessera/error.h>
+#include <tessera/kernel-cache.h>
+
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <set>
 
-#include <tessera/error.h>
-#include <tessera/kernel-cache.h>
 #include "host/kernels/spirv.h"
 #include "host/plan/stages.h"
 

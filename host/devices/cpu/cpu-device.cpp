@@ -1,8 +1,8 @@
-#include <tessera/cpu-device.h>
-
 #include <dlfcn.h>
 #include <fmt/format.h>
 #include <sys/mman.h>
+#include <tessera/cpu-device.h>
+#include <tessera/error.h>
 
 #include <algorithm>
 #include <chrono>
@@ -15,10 +15,9 @@
 #include <stdexcept>
 #include <utility>
 
-#include "host/kernels/compiler-tools.h"
 #include "host/devices/cpu/crew.h"
 #include "host/devices/cpu/kernel-fault.h"
-#include <tessera/error.h>
+#include "host/kernels/compiler-tools.h"
 
 namespace tessera {
 namespace {

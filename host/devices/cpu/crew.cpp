@@ -4,6 +4,7 @@
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
+#include <tessera/error.h>
 
 #include <algorithm>
 #include <atomic>
@@ -16,8 +17,6 @@
 #include <system_error>
 #include <thread>
 #include <vector>
-
-#include <tessera/error.h>
 
 namespace tessera {
 namespace {

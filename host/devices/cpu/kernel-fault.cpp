@@ -1,12 +1,11 @@
 #include "host/devices/cpu/kernel-fault.h"
 
+#include <tessera/error.h>
 #include <unistd.h>
 
 #include <atomic>
 #include <csignal>
 #include <cstring>
-
-#include <tessera/error.h>
 
 namespace tessera {
 namespace {

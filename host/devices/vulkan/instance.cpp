@@ -12,8 +12,8 @@
 #include <filesystem>
 #include <utility>
 
-#include "host/support/terminal.h"
 #include "host/devices/vulkan/drivers.h"
+#include "host/support/terminal.h"
 
 namespace tessera::vulkan {
 namespace {

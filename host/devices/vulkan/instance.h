@@ -1,14 +1,14 @@
 // The Vulkan instance, its adapters, and which of them can run us. Shared by the compute device and the draw baseline.
 #pragma once
 
+#include <tessera/error.h>
+#include <tessera/vulkan-device.h>
+
 #include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 #include <vulkan/vulkan_raii.hpp>
-
-#include <tessera/error.h>
-#include <tessera/vulkan-device.h>
 
 namespace tessera::vulkan {
 

@@ -1,12 +1,12 @@
 #include "host/devices/vulkan/spirv-module.h"
 
 #include <fmt/format.h>
+#include <tessera/error.h>
 
 #include <cstring>
 #include <map>
 #include <span>
 
-#include <tessera/error.h>
 #include "host/kernels/spirv.h"
 
 namespace tessera::vulkan {

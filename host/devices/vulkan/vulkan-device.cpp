@@ -1,6 +1,5 @@
-#include <tessera/vulkan-device.h>
-
 #include <fmt/format.h>
+#include <tessera/vulkan-device.h>
 
 #include <algorithm>
 #include <cstring>

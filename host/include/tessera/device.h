@@ -1,6 +1,8 @@
 // Buffers, dispatch and timestamps: all that the rasteriser asks of a machine.
 #pragma once
 
+#include <tessera/kernel.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -8,8 +10,6 @@
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include <tessera/kernel.h>
 
 namespace tessera {
 

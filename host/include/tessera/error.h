@@ -9,11 +9,11 @@ namespace tessera {
 /// Exit codes of the command line; a library user switches on them.
 enum class ExitCode : int {
   kDone = 0,
-  kFailure = 1,      ///< anything that has no code of its own
-  kUsage = 2,        ///< bad usage or input, a device that is not there included
-  kOverflow = 3,     ///< a capacity was exceeded under overflow=error
-  kUnsupported = 4,  ///< the device cannot run this variant; the message names the missing feature
-  kDifference = 5,   ///< compare or parity found a difference
+  kFailure = 1,        ///< anything that has no code of its own
+  kUsage = 2,          ///< bad usage or input, a device that is not there included
+  kOverflow = 3,       ///< a capacity was exceeded under overflow=error
+  kUnsupported = 4,    ///< the device cannot run this variant; the message names the missing feature
+  kDifference = 5,     ///< compare or parity found a difference
   kInterrupted = 130,  ///< sweep was stopped by Ctrl-C or SIGTERM; what it had is kept
 };
 

@@ -1,6 +1,8 @@
 // Framebuffers to and from image files.
 #pragma once
 
+#include <tessera/framebuffer.h>
+
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -10,8 +12,6 @@
 #include <string>
 #include <utility>
 #include <vector>
-
-#include <tessera/framebuffer.h>
 
 namespace tessera {
 

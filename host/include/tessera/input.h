@@ -1,15 +1,15 @@
 // INPUT of the command line to a Scene: a mesh file, a generator, a scene file or a replay file.
 #pragma once
 
+#include <tessera/framebuffer.h>
+#include <tessera/scene.h>
+
 #include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
 #include <vector>
-
-#include <tessera/framebuffer.h>
-#include <tessera/scene.h>
 
 namespace tessera {
 

@@ -1,15 +1,15 @@
 // Variant -> compiled kernel, by content. Slang comes in here and nowhere else.
 #pragma once
 
+#include <tessera/kernel.h>
+#include <tessera/variant.h>
+
 #include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
 #include <string>
 #include <vector>
-
-#include <tessera/kernel.h>
-#include <tessera/variant.h>
 
 namespace tessera {
 

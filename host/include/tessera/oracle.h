@@ -2,12 +2,12 @@
 // It shares no code with slang/ and includes nothing of the pipeline; it is written to be read beside the contract.
 #pragma once
 
+#include <tessera/framebuffer.h>
+#include <tessera/scene.h>
+
 #include <cstdint>
 #include <string>
 #include <vector>
-
-#include <tessera/framebuffer.h>
-#include <tessera/scene.h>
 
 namespace tessera::reference {
 

@@ -1,12 +1,12 @@
 // Scene and variant -> the passes and switches that are needed, and why each other one is left out.
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include <tessera/device.h>
 #include <tessera/scene.h>
 #include <tessera/variant.h>
+
+#include <string>
+#include <vector>
 
 namespace tessera {
 

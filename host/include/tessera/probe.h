@@ -2,11 +2,11 @@
 // passes.
 #pragma once
 
+#include <tessera/device.h>
+
 #include <cstdint>
 #include <string>
 #include <vector>
-
-#include <tessera/device.h>
 
 namespace tessera {
 

@@ -54,19 +54,19 @@
 //                a2 is not finite.
 #pragma once
 
-#include <cstdint>
-#include <map>
-#include <memory>
-#include <optional>
-#include <string>
-#include <vector>
-
 #include <tessera/counters.h>
 #include <tessera/device.h>
 #include <tessera/framebuffer.h>
 #include <tessera/plan.h>
 #include <tessera/scene.h>
 #include <tessera/variant.h>
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace tessera {
 
@@ -76,15 +76,16 @@ class KernelCache;
 using Counters = std::map<std::string, std::uint64_t>;
 
 struct FrameTimes {
-  std::uint64_t totalNs = 0;                                     ///< first dispatch to finished visibility buffer
-  std::vector<std::pair<std::string, std::uint64_t>> stages;     ///< summed by stage, in pipeline order
+  std::uint64_t totalNs = 0;                                  ///< first dispatch to finished visibility buffer
+  std::vector<std::pair<std::string, std::uint64_t>> stages;  ///< summed by stage, in pipeline order
 };
 
-/// What a stage wrote, in an order that does not depend on scheduling, so that two devices can be compared stage by stage.
+/// What a stage wrote, in an order that does not depend on scheduling, so that two devices can be compared stage by
+/// stage.
 struct StageOutput {
   std::string stage;
-  std::string element;             ///< what one element is
-  std::size_t words = 1;           ///< 32-bit words an element
+  std::string element;    ///< what one element is
+  std::size_t words = 1;  ///< 32-bit words an element
   std::vector<std::uint32_t> values;
 };
 
@@ -92,14 +93,14 @@ struct Frame {
   Framebuffer image;
   Counters counters;
   FrameTimes times;
-  Plan plan;                       ///< what ran, what was left out, why
-  std::vector<StageOutput> stages; ///< in pipeline order; only of frames that ran in one band and one batch
+  Plan plan;                        ///< what ran, what was left out, why
+  std::vector<StageOutput> stages;  ///< in pipeline order; only of frames that ran in one band and one batch
 };
 
 struct FrameOptions {
-  bool readBack = true;            ///< fill Frame::image
-  bool countWork = false;          ///< also count tests, covered samples and atomics (slower kernels)
-  bool keepStages = false;         ///< fill Frame::stages
+  bool readBack = true;     ///< fill Frame::image
+  bool countWork = false;   ///< also count tests, covered samples and atomics (slower kernels)
+  bool keepStages = false;  ///< fill Frame::stages
 };
 
 /// Renders scenes on one device. Keeps kernels and buffers between frames.

@@ -35,7 +35,7 @@ struct AxisValue {
   std::string meaning;  ///< one line
   std::string slang;    ///< what the generated module says for it; empty: a host path
   AxisKind kind = AxisKind::kImplementation;
-  unsigned features = 0;  ///< of Feature
+  unsigned features = 0;    ///< of Feature
   std::string source = {};  ///< paper or specification, where it is not the axis'
   std::string limits = {};  ///< bound of the error, largest scene: one line
 
@@ -44,11 +44,11 @@ struct AxisValue {
 
 struct Axis {
   std::string name;
-  std::string meaning;              ///< one line
-  std::string source = {};          ///< paper or specification
+  std::string meaning;                   ///< one line
+  std::string source = {};               ///< paper or specification
   std::vector<std::string> stages = {};  ///< kernels that read it, by stage name; empty: the host reads it
   std::vector<AxisValue> values = {};    ///< empty: an integer from `least` to `most`
-  std::string unset = {};           ///< what the plan chooses when it is not set, in words
+  std::string unset = {};                ///< what the plan chooses when it is not set, in words
   /// Whether its values are Slang types, which the module `variant` names; else constants, which go into `settings`.
   bool types = false;
   long least = 0, most = 0;
@@ -97,8 +97,9 @@ bool isApproximate(const Variant& variant);
 
 /// The two generated Slang modules of a kernel.
 struct VariantModules {
-  std::string settings;  ///< text of settings.slang: constants, and what the lowest modules are made of; imports nothing
-  std::string variant;   ///< text of variant.slang: the chosen types, each a file that fulfils an interface
+  std::string
+      settings;         ///< text of settings.slang: constants, and what the lowest modules are made of; imports nothing
+  std::string variant;  ///< text of variant.slang: the chosen types, each a file that fulfils an interface
   std::string text() const { return settings + variant; }
   auto operator<=>(const VariantModules&) const = default;
 };

@@ -1,12 +1,12 @@
 // Vulkan 1.2 or later, through Vulkan-Hpp RAII.
 #pragma once
 
+#include <tessera/device.h>
+
 #include <functional>
 #include <memory>
 #include <string>
 #include <vector>
-
-#include <tessera/device.h>
 
 namespace tessera {
 

@@ -1,11 +1,7 @@
 // Renders a generated mesh on the CPU, through the installed library alone.
-#include <cstdio>
+#include <tessera/tessera.h>
 
-#include <tessera/input.h>
-#include <tessera/cpu-device.h>
-#include <tessera/image.h>
-#include <tessera/kernel-cache.h>
-#include <tessera/rasterizer.h>
+#include <cstdio>
 
 int main() {
   tessera::Scene scene = tessera::loadInput("generate:icosphere?level=3");

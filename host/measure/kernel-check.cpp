@@ -1,7 +1,10 @@
-#include "host/cli/kernel-check.h"
+#include "host/measure/kernel-check.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <tessera/cpu-device.h>
+#include <tessera/error.h>
+#include <tessera/plan.h>
 
 #include <chrono>
 #include <condition_variable>
@@ -9,16 +12,13 @@
 #include <mutex>
 #include <thread>
 
-#include "host/cli/measure.h"
-#include <tessera/cpu-device.h>
 #include "host/devices/cpu/kernel-fault.h"
-#include <tessera/error.h>
-#include <tessera/plan.h>
+#include "host/kernels/user-kernel.h"
+#include "host/measure/measure.h"
 #include "host/plan/stages.h"
 #include "host/support/terminal.h"
-#include "host/kernels/user-kernel.h"
 
-namespace tessera::cli {
+namespace tessera {
 namespace {
 
 constexpr auto kPatience = std::chrono::seconds(10);
@@ -116,4 +116,4 @@ void checkUserKernels(const Scene& scene, const Variant& variant, const KernelFi
   KernelCheck(scene, variant, files).run();
 }
 
-}  // namespace tessera::cli
+}  // namespace tessera

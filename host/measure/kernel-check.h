@@ -1,13 +1,13 @@
 // Users' kernels are native code: each runs one frame in a build with bounds checks before any frame that counts.
 #pragma once
 
-#include <memory>
-
 #include <tessera/kernel-cache.h>
 #include <tessera/rasterizer.h>
 #include <tessera/scene.h>
 
-namespace tessera::cli {
+#include <memory>
+
+namespace tessera {
 
 /// The frame is rendered on the CPU device, whatever device the kernels are for: a GPU has no such checks. GLSL, and
 /// kernels whose groups need more than one thread, do not run there and are not checked.
@@ -30,4 +30,4 @@ class KernelCheck {
 /// zero, end the process with a line from then on.
 void checkUserKernels(const Scene& scene, const Variant& variant, const KernelFiles& files);
 
-}  // namespace tessera::cli
+}  // namespace tessera

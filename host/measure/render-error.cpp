@@ -1,14 +1,14 @@
-#include "host/cli/render-error.h"
+#include "host/measure/render-error.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "host/cli/parity-oracle.h"
-#include "host/cli/table.h"
+#include "host/measure/parity-oracle.h"
+#include "host/support/table.h"
 
-namespace tessera::cli {
+namespace tessera {
 namespace {
 
 bool approximates(const std::string& name, const std::string& value) {
@@ -97,4 +97,4 @@ std::string errorSummary(const Run& run) {
   return text;
 }
 
-}  // namespace tessera::cli
+}  // namespace tessera

@@ -1,14 +1,18 @@
 // What render and parity have in common: kernels compiled ahead, frames rendered and timed, all of it kept for a row.
 #pragma once
 
+#include <tessera/kernel-cache.h>
+#include <tessera/plan.h>
+
 #include <functional>
 #include <vector>
 
-#include <tessera/kernel-cache.h>
-#include <tessera/plan.h>
 #include "host/measure/row.h"
 
-namespace tessera::cli {
+namespace tessera {
+
+/// Prints what a user would not expect of a scene as warnings, each line once a process.
+void printNotes(const Scene& scene);
 
 /// Compiles what the plans need, all kernels at once on all cores, with progress; a user's kernel whose SPIR-V is not
 /// exact gets a line on stderr.
@@ -28,4 +32,4 @@ void measureError(Run& run, const Framebuffer& image);
 /// A table's name for the whole frame's time, which ends with the visibility buffer.
 std::string frameLabel(const Run& run);
 
-}  // namespace tessera::cli
+}  // namespace tessera

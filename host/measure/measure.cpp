@@ -1,7 +1,8 @@
-#include "host/cli/measure.h"
+#include "host/measure/measure.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <tessera/error.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -9,14 +10,19 @@
 #include <set>
 #include <tuple>
 
-#include "host/cli/progress.h"
-#include <tessera/error.h>
+#include "host/kernels/user-kernel.h"
 #include "host/oracle/oracle-image.h"
 #include "host/plan/stages.h"
+#include "host/support/progress.h"
 #include "host/support/terminal.h"
-#include "host/kernels/user-kernel.h"
 
-namespace tessera::cli {
+namespace tessera {
+
+void printNotes(const Scene& scene) {
+  static std::set<std::string> printed;
+  for (const std::string& note : scene.notes)
+    if (printed.insert(note).second) say(stderr, "warning: {}\n", note);
+}
 
 void compileKernels(KernelCache& kernels, const std::vector<Plan>& plans) {
   std::vector<KernelRequest> requests;
@@ -88,4 +94,4 @@ std::string frameLabel(const Run& run) {
   return after.empty() ? "frame" : fmt::format("frame without {}", fmt::join(after, ", "));
 }
 
-}  // namespace tessera::cli
+}  // namespace tessera

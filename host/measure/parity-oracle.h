@@ -1,14 +1,14 @@
 // What a frame is held against: the oracle, pixel by pixel, and where that differs another device, stage by stage.
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include <tessera/image.h>
 #include <tessera/rasterizer.h>
 #include <tessera/scene.h>
 
-namespace tessera::cli {
+#include <string>
+#include <vector>
+
+namespace tessera {
 
 /// The oracle does not shade: without colours from elsewhere there are none to compare.
 class Oracle {
@@ -30,4 +30,4 @@ class Oracle {
 /// One line: the first stage, and the first element and word of its output, in which `frame` is not as `good`.
 std::string firstStage(const Frame& good, const std::string& goodName, const Frame& frame, const std::string& name);
 
-}  // namespace tessera::cli
+}  // namespace tessera

@@ -1,13 +1,13 @@
-#include "host/cli/parity-oracle.h"
+#include "host/measure/parity-oracle.h"
 
 #include <fmt/format.h>
+#include <tessera/oracle.h>
 
 #include <algorithm>
 
 #include "host/oracle/oracle-image.h"
-#include <tessera/oracle.h>
 
-namespace tessera::cli {
+namespace tessera {
 Oracle::Oracle(const Scene& scene, const Variant& variant) : image_(reference::render(scene, imageOf(variant)).image) {}
 
 Difference Oracle::against(const Framebuffer& frame) const { return compare(expected(frame), frame); }
@@ -49,4 +49,4 @@ std::string firstStage(const Frame& good, const std::string& goodName, const Fra
   return "no stage output differs: the images part after the last one, or the frames ran in several parts";
 }
 
-}  // namespace tessera::cli
+}  // namespace tessera

@@ -1,4 +1,4 @@
-#include "host/cli/progress.h"
+#include "host/support/progress.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -10,7 +10,7 @@
 
 #include "host/support/terminal.h"
 
-namespace tessera::cli {
+namespace tessera {
 namespace {
 
 std::atomic<bool> silent{false};
@@ -74,4 +74,4 @@ void Progress::draw() {
   drawn_ = true;
 }
 
-}  // namespace tessera::cli
+}  // namespace tessera

@@ -1,12 +1,13 @@
 // How far a rendered image is from right, as render measures and says it.
 #pragma once
 
+#include <tessera/rasterizer.h>
+
 #include <string>
 
-#include <tessera/rasterizer.h>
 #include "host/measure/row.h"
 
-namespace tessera::cli {
+namespace tessera {
 
 /// `asked` without its approximate values. Shading stays what it was, where it was such a value that brought it in.
 Variant exactVariant(const Variant& asked, const Variant& resolved);
@@ -23,4 +24,4 @@ Difference::Count wrongWinners(const Variant& resolved, const Difference& differ
 /// A line for each error that `run` has; "" where none was measured.
 std::string errorSummary(const Run& run);
 
-}  // namespace tessera::cli
+}  // namespace tessera

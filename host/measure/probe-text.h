@@ -1,15 +1,15 @@
 // The arithmetic probe's verdict, in words.
 #pragma once
 
-#include <string>
-
 #include <tessera/kernel.h>
 #include <tessera/probe.h>
 
-namespace tessera::cli {
+#include <string>
+
+namespace tessera {
 
 std::string routeName(Route route);            ///< "cpp", "spirv" or "glsl"
 std::string verdictOf(const Probe& probe);     ///< "passed", "flushes denormals" or "FAILED"
 std::string firstFailure(const Probe& probe);  ///< "divide: 1/3 gives ..."; "" when it passed
 
-}  // namespace tessera::cli
+}  // namespace tessera

@@ -1,6 +1,6 @@
-#include "host/cli/probe-text.h"
+#include "host/measure/probe-text.h"
 
-namespace tessera::cli {
+namespace tessera {
 
 std::string routeName(Route route) { return route == Route::kCpp ? "cpp" : route == Route::kSpirv ? "spirv" : "glsl"; }
 
@@ -14,4 +14,4 @@ std::string firstFailure(const Probe& probe) {
   return "";
 }
 
-}  // namespace tessera::cli
+}  // namespace tessera
