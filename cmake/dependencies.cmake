@@ -10,6 +10,7 @@ endforeach()
 # Headers alone: no user of the installed library needs these.
 find_package(nlohmann_json REQUIRED)
 find_package(CLI11 REQUIRED)
+find_package(SPIRV-Headers REQUIRED)
 if(TESSERA_TESTS)
   find_package(Catch2 2.13 REQUIRED)
 endif()

@@ -141,8 +141,8 @@ double checkCell(Run& run, std::size_t number, const CheckTools& tools) {
   run.plan = plan.entries;
   compile(scene, asked, run.device, tools.kernels);
   if (!tools.kernels.files().empty()) {
-    KernelCheck checked(scene, asked, tools.kernels.files());
-    tools.frame([&] { checked.run(); });
+    KernelCheck checked(scene, tools.kernels.files(), {{tools.deviceName, asked}});
+    checked.run(tools.frame);
   }
 
   Rasterizer rasterizer(tools.device, tools.kernels);

@@ -33,6 +33,7 @@ class Oracles {
 /// What a check needs. `frame` renders under the time limit.
 struct CheckTools {
   Device& device;  ///< of its own for each check, so that its peak of bytes is of this cell
+  std::string deviceName;  ///< as it is opened by
   KernelCache& kernels;
   Oracles& oracles;
   std::filesystem::path folder;  ///< of the results

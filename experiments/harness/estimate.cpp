@@ -103,7 +103,7 @@ class Meter {
     KernelCache kernels({.files = cell.kernels});
     compilingS_ += secondsOf([&] { compileKernels(kernels, {makePlan(scene, cell.asked, device->info())}); });
     compiled_ += kernels.statistics().compiled;
-    checkUserKernels(scene, cell.asked, cell.kernels);
+    checkUserKernels(scene, cell.kernels, {{cell.device, cell.asked}});
     Rasterizer rasterizer(*device, kernels);
     GroupTimes times;
     Frame frame;

@@ -152,7 +152,7 @@ class Worker {
       frame();
     };
     try {
-      seconds = checkCell(run, cell.number, {*device, kernels, oracles_, job_.folder, under});
+      seconds = checkCell(run, cell.number, {*device, job_.device, kernels, oracles_, job_.folder, under});
     } catch (const Error& error) {
       run.status = statusOf(error.code());
       run.message = error.what();

@@ -98,7 +98,7 @@ void addKernelFiles(CLI::App& app, Options& options) {
   app.add_option(
          "--kernel", options.kernels,
          "run FILE (.slang, .hlsl, or GLSL as .comp or .glsl) in place of a stage's own kernel; repeat for more. It is "
-         "native code, with your rights; a frame with bounds checks comes first, but for GLSL")
+         "native code, with your rights; a frame with bounds checks comes first")
       ->type_name("STAGE=FILE")
       ->allow_extra_args(false);
 }
@@ -225,8 +225,10 @@ Scene sceneOf(const Options& options) {
   return scene;
 }
 
+std::string deviceName(const Options& options) { return options.devices.empty() ? "cpu" : options.devices.front(); }
+
 std::unique_ptr<Device> deviceOf(const Options& options) {
-  const std::string name = options.devices.empty() ? "cpu" : options.devices.front();
+  const std::string name = deviceName(options);
   if (options.threads != 0 && name.starts_with("vulkan"))
     failUsage("--threads: only the CPU device takes it; --device cpu would");
   return openDevice(name, options.threads);

@@ -50,7 +50,9 @@ AttributeRequest attributeOf(const Options& options);
 /// Loads the input and its attribute, and prints its notes; a size that was given replaces the scene's, and its camera
 /// follows.
 Scene sceneOf(const Options& options);
-/// The one device of a command that takes one: the CPU unless another was named.
+/// The name of the one device of a command that takes one: the CPU unless another was named.
+std::string deviceName(const Options& options);
+/// The device itself.
 std::unique_ptr<Device> deviceOf(const Options& options);
 
 /// What stands between the commas of an option's value, without blanks around it. Throws kUsage where it is nothing,

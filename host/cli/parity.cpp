@@ -121,7 +121,9 @@ class Parity {
       }
     }
     compileKernels(kernels_, plans);
-    checkUserKernels(scene_, attempts_.front().variant, kernels_.files());
+    std::vector<KernelRun> runs;
+    for (const auto& attempt : attempts_) runs.push_back({attempt.device, attempt.variant});
+    checkUserKernels(scene_, kernels_.files(), runs);
   }
 
   Outcome tryOne(const Attempt& attempt, Oracle& oracle) {

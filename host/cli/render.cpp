@@ -81,7 +81,7 @@ Framebuffer renderFrames(const RenderOptions& options, Device& device, KernelCac
   std::vector<Plan> plans{makePlan(scene, asked, run.device)};
   if (countWork) plans.push_back(makePlan(scene, counting(asked), run.device));
   compileKernels(kernels, plans);
-  checkUserKernels(scene, asked, kernels.files());
+  checkUserKernels(scene, kernels.files(), {{deviceName(options), asked}});
 
   Rasterizer rasterizer(device, kernels);
   Progress progress("render", options.repeat + 1);

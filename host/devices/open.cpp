@@ -30,9 +30,10 @@ namespace {
 
 }  // namespace
 
-std::unique_ptr<Device> openDevice(const std::string& name, unsigned threads) {
+std::unique_ptr<Device> openDevice(const std::string& name, unsigned threads, bool boundsChecks) {
   if (name == "cpu") return makeCpuDevice({.threads = threads});
   VulkanOptions vulkan;
+  vulkan.boundsChecks = boundsChecks;
   if (name.starts_with("vulkan:")) vulkan.select = name.substr(7);
   if (name != "vulkan" && vulkan.select.empty()) failDevice(name);
 #ifdef TESSERA_VALIDATION

@@ -5,35 +5,29 @@
 #include <array>
 #include <map>
 #include <set>
+#include <spirv/unified1/spirv.hpp>
 
 #include "host/kernels/spirv.h"
 
 namespace tessera {
 namespace {
 
-enum Op : std::uint32_t {
-  kOpName = 5,
-  kOpExtInstImport = 11,
-  kOpExtInst = 12,
-  kOpTypeFirst = 19,
-  kOpTypeLast = 39,
-  kOpDecorate = 71,
-};
-constexpr std::uint32_t kNoContraction = 42;
-
 /// Instructions that a driver may fuse with a neighbour unless NoContraction stands on them.
-const std::map<std::uint32_t, const char*> kContractible = {
-    {129, "OpFAdd"}, {131, "OpFSub"}, {133, "OpFMul"}, {136, "OpFDiv"}, {142, "OpVectorTimesScalar"}};
+const std::map<std::uint32_t, const char*> kContractible = {{spv::OpFAdd, "OpFAdd"},
+                                                            {spv::OpFSub, "OpFSub"},
+                                                            {spv::OpFMul, "OpFMul"},
+                                                            {spv::OpFDiv, "OpFDiv"},
+                                                            {spv::OpVectorTimesScalar, "OpVectorTimesScalar"}};
 
 /// Instructions whose order of operations, or rounding, is the driver's.
-const std::map<std::uint32_t, const char*> kForbidden = {{140, "OpFRem"},
-                                                         {141, "OpFMod"},
-                                                         {143, "OpMatrixTimesScalar"},
-                                                         {144, "OpVectorTimesMatrix"},
-                                                         {145, "OpMatrixTimesVector"},
-                                                         {146, "OpMatrixTimesMatrix"},
-                                                         {147, "OpOuterProduct"},
-                                                         {148, "OpDot"}};
+const std::map<std::uint32_t, const char*> kForbidden = {{spv::OpFRem, "OpFRem"},
+                                                         {spv::OpFMod, "OpFMod"},
+                                                         {spv::OpMatrixTimesScalar, "OpMatrixTimesScalar"},
+                                                         {spv::OpVectorTimesMatrix, "OpVectorTimesMatrix"},
+                                                         {spv::OpMatrixTimesVector, "OpMatrixTimesVector"},
+                                                         {spv::OpMatrixTimesMatrix, "OpMatrixTimesMatrix"},
+                                                         {spv::OpOuterProduct, "OpOuterProduct"},
+                                                         {spv::OpDot, "OpDot"}};
 
 /// GLSL.std.450 instructions with one right result for every input: Trunc, FAbs, SAbs, FSign, SSign, Floor, Ceil, Sqrt
 /// (judged by the probe), UMin, SMin, UMax, SMax, UClamp, SClamp, FindILsb, FindSMsb, FindUMsb. All else is reported:
@@ -46,7 +40,7 @@ const std::map<std::uint32_t, const char*> kExtendedNames = {
     {68, "Cross"}, {69, "Normalize"}, {79, "NMin"},        {80, "NMax"}, {81, "NClamp"}};
 
 bool isNoContraction(const SpirvInstruction& i) {
-  return i.op == kOpDecorate && i.count >= 2 && i.operands[1] == kNoContraction;
+  return i.op == spv::OpDecorate && i.count >= 2 && i.operands[1] == spv::DecorationNoContraction;
 }
 
 }  // namespace
@@ -57,8 +51,8 @@ std::vector<std::string> checkSpirv(const std::vector<std::uint32_t>& words) {
   std::set<std::uint32_t> decorated, glslSets;
   for (const SpirvInstruction& i : all) {
     if (isNoContraction(i)) decorated.insert(i.operands[0]);
-    if (i.op == kOpName && i.count >= 2) names[i.operands[0]] = i.text(1);
-    if (i.op == kOpExtInstImport && i.count >= 2 && i.text(1) == "GLSL.std.450") glslSets.insert(i.operands[0]);
+    if (i.op == spv::OpName && i.count >= 2) names[i.operands[0]] = i.text(1);
+    if (i.op == spv::OpExtInstImport && i.count >= 2 && i.text(1) == "GLSL.std.450") glslSets.insert(i.operands[0]);
   }
   std::vector<std::string> violations;
   const auto report = [&](const SpirvInstruction& i,
@@ -72,7 +66,8 @@ std::vector<std::string> checkSpirv(const std::vector<std::uint32_t>& words) {
     if (const auto op = kContractible.find(i.op); op != kContractible.end() && !decorated.count(i.operands[1]))
       report(i, fmt::format("{} without NoContraction", op->second));
     if (const auto op = kForbidden.find(i.op); op != kForbidden.end()) report(i, op->second);
-    if (i.op == kOpExtInst && i.count >= 4 && glslSets.count(i.operands[2]) && !kExactExtended.count(i.operands[3])) {
+    if (i.op == spv::OpExtInst && i.count >= 4 && glslSets.count(i.operands[2]) &&
+        !kExactExtended.count(i.operands[3])) {
       const auto name = kExtendedNames.find(i.operands[3]);
       report(i,
              name != kExtendedNames.end() ? name->second : fmt::format("GLSL.std.450 instruction {}", i.operands[3]));
@@ -91,10 +86,11 @@ void decorateNoContraction(std::vector<std::uint32_t>& words) {
   std::vector<std::uint32_t> added;
   for (const SpirvInstruction& i : all)
     if (i.count >= 2 && kContractible.count(i.op) && !decorated.count(i.operands[1]))
-      added.insert(added.end(), {(3u << 16) | kOpDecorate, i.operands[1], kNoContraction});
+      added.insert(added.end(), {(3u << 16) | spv::OpDecorate, i.operands[1], spv::DecorationNoContraction});
   // Annotations stand right before the types and constants (SPIR-V 2.4, logical layout).
-  const auto types = std::find_if(
-      all.begin(), all.end(), [](const SpirvInstruction& i) { return i.op >= kOpTypeFirst && i.op <= kOpTypeLast; });
+  const auto types = std::find_if(all.begin(), all.end(), [](const SpirvInstruction& i) {
+    return i.op >= spv::OpTypeVoid && i.op <= spv::OpTypeForwardPointer;
+  });
   if (!added.empty() && types != all.end())
     words.insert(words.begin() + static_cast<std::ptrdiff_t>(types->at), added.begin(), added.end());
 }

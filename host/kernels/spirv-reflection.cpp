@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <spirv/unified1/spirv.hpp>
 #include <string>
 #include <utility>
 
@@ -13,43 +14,6 @@
 
 namespace tessera {
 namespace {
-
-// Numbers of the SPIR-V specification, section 3.
-enum Op : std::uint32_t {
-  kOpName = 5,
-  kOpMemberName = 6,
-  kOpEntryPoint = 15,
-  kOpExecutionMode = 16,
-  kOpTypeInt = 21,
-  kOpTypeFloat = 22,
-  kOpTypeVector = 23,
-  kOpTypeMatrix = 24,
-  kOpTypeArray = 28,
-  kOpTypeRuntimeArray = 29,
-  kOpTypeStruct = 30,
-  kOpTypePointer = 32,
-  kOpConstant = 43,
-  kOpVariable = 59,
-  kOpDecorate = 71,
-  kOpMemberDecorate = 72
-};
-enum Decoration : std::uint32_t {
-  kBufferBlock = 3,
-  kArrayStride = 6,
-  kNonWritable = 24,
-  kBinding = 33,
-  kDescriptorSet = 34,
-  kOffset = 35
-};
-enum StorageClass : std::uint32_t {
-  kInput = 1,
-  kUniform = 2,
-  kPrivate = 6,
-  kWorkgroup = 4,
-  kFunction = 7,
-  kStorageBuffer = 12
-};
-constexpr std::uint32_t kGLCompute = 5, kLocalSize = 17;
 
 using Id = std::uint32_t;
 
@@ -72,32 +36,32 @@ struct Declarations {
   void see(const SpirvInstruction& i) {
     const std::uint32_t* o = i.operands;
     switch (i.op) {
-      case kOpName:
+      case spv::OpName:
         names[o[0]] = i.text(1);
         break;
-      case kOpMemberName:
+      case spv::OpMemberName:
         memberNames[{o[0], o[1]}] = i.text(2);
         break;
-      case kOpEntryPoint:
-        entries += o[0] == kGLCompute;
+      case spv::OpEntryPoint:
+        entries += o[0] == spv::ExecutionModelGLCompute;
         break;
-      case kOpExecutionMode:
-        if (o[1] == kLocalSize) groupSize = {o[2], o[3], o[4]};
+      case spv::OpExecutionMode:
+        if (o[1] == spv::ExecutionModeLocalSize) groupSize = {o[2], o[3], o[4]};
         break;
-      case kOpConstant:
+      case spv::OpConstant:
         constants[o[1]] = o[2];
         break;
-      case kOpVariable:
+      case spv::OpVariable:
         variables.push_back(i);
         break;
-      case kOpDecorate:
+      case spv::OpDecorate:
         decorations[{o[0], o[1]}] = i.count > 2 ? o[2] : 0;
         break;
-      case kOpMemberDecorate:
+      case spv::OpMemberDecorate:
         members[{o[0], o[1]}][o[2]] = i.count > 3 ? o[3] : 0;
         break;
       default:
-        if (i.op >= kOpTypeInt && i.op <= kOpTypePointer && i.count > 0) types.emplace(o[0], i);
+        if (i.op >= spv::OpTypeInt && i.op <= spv::OpTypePointer && i.count > 0) types.emplace(o[0], i);
     }
   }
 
@@ -123,13 +87,13 @@ struct Declarations {
   std::uint32_t bytes(Id type) const {
     const SpirvInstruction& t = types.at(type);
     const std::uint32_t* o = t.operands;
-    if (t.op == kOpTypeInt || t.op == kOpTypeFloat) return o[1] / 8;
-    if (t.op == kOpTypeVector || t.op == kOpTypeMatrix) return bytes(o[1]) * o[2];
-    if (t.op == kOpTypeArray) return decoration(type, kArrayStride).value_or(0) * constants.at(o[2]);
+    if (t.op == spv::OpTypeInt || t.op == spv::OpTypeFloat) return o[1] / 8;
+    if (t.op == spv::OpTypeVector || t.op == spv::OpTypeMatrix) return bytes(o[1]) * o[2];
+    if (t.op == spv::OpTypeArray) return decoration(type, spv::DecorationArrayStride).value_or(0) * constants.at(o[2]);
     std::uint32_t end = 0;
-    if (t.op == kOpTypeStruct)
+    if (t.op == spv::OpTypeStruct)
       for (std::uint32_t m = 0; m + 1 < t.count; ++m)
-        end = std::max(end, memberDecoration(type, m, kOffset).value_or(0) + bytes(o[m + 1]));
+        end = std::max(end, memberDecoration(type, m, spv::DecorationOffset).value_or(0) + bytes(o[m + 1]));
     return end;
   }
 };
@@ -149,16 +113,19 @@ class Reader {
   void readVariable(const SpirvInstruction& variable) {  // result type, result, storage class
     const Id id = variable.operands[1];
     const std::uint32_t storage = variable.operands[2];
-    if (storage == kInput || storage == kPrivate || storage == kWorkgroup || storage == kFunction) return;
+    if (storage == spv::StorageClassInput || storage == spv::StorageClassPrivate ||
+        storage == spv::StorageClassWorkgroup || storage == spv::StorageClassFunction)
+      return;
     const Id type = module_.types.at(variable.operands[0]).operands[2];
-    const bool isStruct = module_.types.at(type).op == kOpTypeStruct;
-    const bool isStorage = storage == kStorageBuffer || module_.decoration(type, kBufferBlock);
-    if (!isStruct || (!isStorage && storage != kUniform))
+    const bool isStruct = module_.types.at(type).op == spv::OpTypeStruct;
+    const bool isStorage =
+        storage == spv::StorageClassStorageBuffer || module_.decoration(type, spv::DecorationBufferBlock);
+    if (!isStruct || (!isStorage && storage != spv::StorageClassUniform))
       failUsage(fmt::format("`{}` is neither a storage buffer nor the uniform block `frame`", module_.name(id)));
     const std::string name = isStorage ? readStorage(id, type) : readBlock(id, type);
-    if (const auto set = module_.decoration(id, kDescriptorSet).value_or(0); set != 0)
+    if (const auto set = module_.decoration(id, spv::DecorationDescriptorSet).value_or(0); set != 0)
       failUsage(fmt::format("`{}` is in descriptor set {}; Tessera binds set 0 only", name, set));
-    const auto binding = module_.decoration(id, kBinding);
+    const auto binding = module_.decoration(id, spv::DecorationBinding);
     if (!binding) failUsage(fmt::format("`{}` has no binding; layout(binding = N) gives it one", name));
     for (const auto& [other, place] : interface_.resources)
       if (place == *binding) failUsage(fmt::format("`{}` and `{}` have binding {} both", other, name, place));
@@ -169,11 +136,12 @@ class Reader {
     const SpirvInstruction& block = module_.types.at(type);
     const Id element = block.count == 2 ? block.operands[1] : 0;
     const std::string name = module_.name(id).empty() ? module_.memberName(type, 0) : module_.name(id);
-    if (element == 0 || module_.types.at(element).op != kOpTypeRuntimeArray)
+    if (element == 0 || module_.types.at(element).op != spv::OpTypeRuntimeArray)
       failUsage(fmt::format("storage block `{}`: one array without a length, and nothing else, is what a buffer holds",
                             name.empty() ? module_.name(type) : name));
-    interface_.elementSizes[name] = module_.decoration(element, kArrayStride).value_or(0);
-    if (!module_.memberDecoration(type, 0, kNonWritable) && !module_.decoration(id, kNonWritable))
+    interface_.elementSizes[name] = module_.decoration(element, spv::DecorationArrayStride).value_or(0);
+    if (!module_.memberDecoration(type, 0, spv::DecorationNonWritable) &&
+        !module_.decoration(id, spv::DecorationNonWritable))
       interface_.writable.insert(name);
     return name;
   }
@@ -184,9 +152,9 @@ class Reader {
     const SpirvInstruction& block = module_.types.at(type);
     for (std::uint32_t m = 0; m + 1 < block.count; ++m) {
       const Id field = block.operands[m + 1];
-      interface_.fields[module_.memberName(type, m)] = {module_.memberDecoration(type, m, kOffset).value_or(0),
-                                                        module_.bytes(field),
-                                                        module_.types.at(field).op == kOpTypeFloat};
+      interface_.fields[module_.memberName(type, m)] = {
+          module_.memberDecoration(type, m, spv::DecorationOffset).value_or(0), module_.bytes(field),
+          module_.types.at(field).op == spv::OpTypeFloat};
     }
     interface_.blockSize = (module_.bytes(type) + 15) / 16 * 16;  // std140 rounds the block up
     return name;

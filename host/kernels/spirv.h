@@ -1,5 +1,5 @@
 // SPIR-V modules as words: what the contract forbids in one, and the one repair that the GLSL route needs.
-// Numbers are those of the SPIR-V 1.6 specification and of GLSL.std.450 1.00.
+// Numbers of GLSL.std.450 are those of its version 1.00.
 #pragma once
 
 #include <cstdint>

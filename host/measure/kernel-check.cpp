@@ -12,9 +12,9 @@
 #include <mutex>
 #include <thread>
 
-#include "host/devices/cpu/kernel-fault.h"
+#include "host/devices/open.h"
+#include "host/devices/kernel-fault.h"
 #include "host/kernels/user-kernel.h"
-#include "host/measure/measure.h"
 #include "host/plan/stages.h"
 #include "host/support/terminal.h"
 
@@ -69,51 +69,77 @@ class Patience {
 
 struct KernelCheck::State {
   const Scene& scene;
-  Variant variant;
-  KernelFiles files;
-  std::unique_ptr<Device> device;
-  std::unique_ptr<KernelCache> kernels;
-};
+  struct Checked {
+    Variant variant;
+    KernelFiles files;
+    std::unique_ptr<Device> device;
+    std::unique_ptr<KernelCache> kernels;
+  };
+  std::vector<Checked> all;
 
-KernelCheck::KernelCheck(const Scene& scene, const Variant& variant, const KernelFiles& files)
-    : state_(new State{scene, variant, {}, makeCpuDevice(), nullptr}) {
-  state_->variant.set("route", "cpp");
-  try {
-    const Plan plan = makePlan(scene, state_->variant, state_->device->info());
+  /// On the CPU the checks are compiled into the kernels.
+  void addCpu(Variant variant, const KernelFiles& files) {
+    variant.set("route", "cpp");
+    std::unique_ptr<Device> device = makeCpuDevice();
+    const Plan plan = makePlan(scene, variant, device->info());
     KernelCache::Options options;
     options.boundsChecks = true;
-    state_->files = runnable(files, plan, options);
-    options.files = state_->files;
-    state_->kernels = std::make_unique<KernelCache>(options);
-    if (!state_->files.empty()) compileStages(*state_->kernels, plan);
-  } catch (const Error& error) {
-    if (error.code() != ExitCode::kUnsupported) throw;  // a variant for another device alone
-    state_->files.clear();
+    options.files = runnable(files, plan, options);
+    if (options.files.empty()) return;
+    auto kernels = std::make_unique<KernelCache>(options);
+    compileStages(*kernels, plan);
+    all.push_back({std::move(variant), options.files, std::move(device), std::move(kernels)});
   }
+
+  /// On Vulkan the device puts them into the kernels as they are.
+  void addVulkan(const KernelRun& run, const KernelFiles& files) {
+    std::unique_ptr<Device> device = openDevice(run.device, 0, true);
+    auto kernels = std::make_unique<KernelCache>(KernelCache::Options{.files = files});
+    compileStages(*kernels, makePlan(scene, run.variant, device->info()));
+    all.push_back({run.variant, files, std::move(device), std::move(kernels)});
+  }
+
+  void render(const Checked& checked) const {
+    const Patience patience;
+    try {
+      Rasterizer(*checked.device, *checked.kernels).render(scene, checked.variant, {.readBack = false});
+    } catch (const Error& error) {
+      const std::string what = error.what();
+      // The frame that counts says so.
+      if (error.code() == ExitCode::kOverflow || error.code() == ExitCode::kUnsupported) return;
+      if (error.code() != ExitCode::kFailure || what.find("out of bounds") == std::string::npos) throw;
+      std::vector<std::string> users;
+      for (const auto& [stage, file] : checked.files)
+        users.push_back(fmt::format("kernel {} ({})", stage, file.string()));
+      failUsage(fmt::format("{}; it runs on what {} wrote", what, fmt::join(users, ", ")));
+    }
+  }
+};
+
+KernelCheck::KernelCheck(const Scene& scene, const KernelFiles& files, const std::vector<KernelRun>& runs)
+    : state_(new State{scene, {}}) {
+  const auto add = [](const auto& what) {
+    try {
+      what();
+    } catch (const Error& error) {
+      if (error.code() != ExitCode::kUnsupported) throw;  // a variant for another device alone
+    }
+  };
+  add([&] { state_->addCpu(runs.front().variant, files); });
+  for (const KernelRun& run : runs)
+    if (run.device != "cpu") add([&] { state_->addVulkan(run, files); });
 }
 
 KernelCheck::~KernelCheck() = default;
 
-void KernelCheck::run() {
-  if (state_->files.empty()) return;
-  const Patience patience;
-  try {
-    Rasterizer(*state_->device, *state_->kernels).render(state_->scene, state_->variant, {.readBack = false});
-  } catch (const Error& error) {
-    const std::string what = error.what();
-    if (error.code() == ExitCode::kOverflow) return;  // the frame that counts says so
-    if (error.code() != ExitCode::kFailure || what.find("out of bounds") == std::string::npos) throw;
-    std::vector<std::string> users;
-    for (const auto& [stage, file] : state_->files)
-      users.push_back(fmt::format("kernel {} ({})", stage, file.string()));
-    failUsage(fmt::format("{}; it runs on what {} wrote", what, fmt::join(users, ", ")));
-  }
+void KernelCheck::run(const std::function<void(const std::function<void()>&)>& frame) {
+  for (const State::Checked& checked : state_->all) frame([&] { state_->render(checked); });
 }
 
-void checkUserKernels(const Scene& scene, const Variant& variant, const KernelFiles& files) {
+void checkUserKernels(const Scene& scene, const KernelFiles& files, const std::vector<KernelRun>& runs) {
   if (files.empty()) return;
   sayKernelFaults();
-  KernelCheck(scene, variant, files).run();
+  KernelCheck(scene, files, runs).run([](const auto& render) { render(); });
 }
 
 }  // namespace tessera

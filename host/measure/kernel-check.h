@@ -5,21 +5,31 @@
 #include <tessera/rasterizer.h>
 #include <tessera/scene.h>
 
+#include <functional>
 #include <memory>
+#include <string>
+#include <vector>
 
 namespace tessera {
 
-/// The frame is rendered on the CPU device, whatever device the kernels are for: a GPU has no such checks. GLSL, and
-/// kernels whose groups need more than one thread, do not run there and are not checked.
+/// What the kernels will run in: a device by the name that openDevice() takes, and the variant as asked for there.
+struct KernelRun {
+  std::string device;
+  Variant variant;
+};
+
+/// A frame on the CPU device, of those kernels that run there, whatever device they are for: there an integer division
+/// by zero is seen, too. Then one for each run on a Vulkan device, there, of all kernels. A run that its device refuses
+/// has none: its own frame says why.
 class KernelCheck {
  public:
   /// Compiles all stages with checks, ours too: what a user's kernel wrote may be what ours stumbles over.
-  KernelCheck(const Scene& scene, const Variant& variant, const KernelFiles& files);
+  KernelCheck(const Scene& scene, const KernelFiles& files, const std::vector<KernelRun>& runs);
   ~KernelCheck();
 
-  /// Renders the frame. Throws kUsage for an index out of range, with kernel, file, index and buffer. After ten seconds
-  /// a line on stderr says which kernel runs.
-  void run();
+  /// Renders the frames, each within `frame`. Throws kUsage for an index out of range, with kernel, file, index and
+  /// buffer. After ten seconds of a frame a line on stderr says which kernel runs.
+  void run(const std::function<void(const std::function<void()>&)>& frame);
 
  private:
   struct State;
@@ -28,6 +38,6 @@ class KernelCheck {
 
 /// Compiles and runs; nothing where there are no files. Faults of kernels that are no index, such as a division by
 /// zero, end the process with a line from then on.
-void checkUserKernels(const Scene& scene, const Variant& variant, const KernelFiles& files);
+void checkUserKernels(const Scene& scene, const KernelFiles& files, const std::vector<KernelRun>& runs);
 
 }  // namespace tessera

@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "host/devices/vulkan/spirv-module.h"
+#include "host/kernels/spirv-bounds.h"
 #include "host/kernels/spirv.h"
 #include "host/support/files.h"
 #include "host/support/subprocess.h"
@@ -105,7 +106,11 @@ std::vector<std::string> findings(KernelCache& cache, const std::vector<KernelRe
     };
     for (const std::string& violation : checkSpirv(compiled[i].binary)) report(violation);
     // Without OpSource, whose language number for Slang Debian 12's spirv-val does not know.
-    if (const std::string said = spirvVal(vulkan::readModule(compiled[i].binary).words); !said.empty()) report(said);
+    const std::vector<std::uint32_t> words = vulkan::readModule(compiled[i].binary).words;
+    if (const std::string said = spirvVal(words); !said.empty()) report(said);
+    const std::vector<std::uint32_t> checked = addBoundsChecks(words, compiled[i].interface.resources).words;
+    if (const std::string said = spirvVal(checked); !said.empty()) report("with bounds checks: " + said);
+    for (const std::string& violation : checkSpirv(checked)) report("with bounds checks: " + violation);
   }
   return lines;
 }

@@ -8,6 +8,7 @@
 
 #include "all-kernels.h"
 #include "host/measure/row.h"
+#include "tests/support/compare.h"
 #include "tests/support/variants.h"
 
 using namespace tessera;
@@ -18,8 +19,9 @@ namespace {
 /// Frames of one device; what the layer says about them.
 class Watched {
  public:
-  Watched() {
+  explicit Watched(bool boundsChecks = false) {
     VulkanOptions options;
+    options.boundsChecks = boundsChecks;
     options.validation = true;
     options.onMessage = [this](const std::string& message) { messages.push_back(message); };
     device_ = makeVulkanDevice(options);
@@ -93,4 +95,17 @@ TEST_CASE("validation is silent over retries and clipping and empty frames") {
   Scene empty;
   empty.width = empty.height = 17;
   CHECK(coveredPixels(watched.render(empty, {}).image) == 0);
+}
+
+TEST_CASE("validation is silent over bounds checks, which find nothing in our kernels and change no bit") {
+  const Scene scene = loadInput("generate:icosphere?level=2", 101, 77, {.name = "x", .range = {}});
+  for (const char* route : {"spirv", "glsl"}) {
+    Watched checked(true);
+    const std::vector<Variant> variants = eachAlone({{"route", route}}, checked.info());
+    CHECK(variants.size() > 20);
+    for (const Variant& variant : variants) {
+      const Frame frame = checked.render(scene, variant);
+      CHECK(difference(frame, reference::render(scene, imageOf(frame.plan.resolved))) == "");
+    }
+  }
 }

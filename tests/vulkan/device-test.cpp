@@ -30,10 +30,11 @@ struct Machine {
   std::vector<std::string> messages;
   std::unique_ptr<Device> device;
 
-  explicit Machine(bool staged = false) {
+  explicit Machine(bool staged = false, bool boundsChecks = false) {
     VulkanOptions options;
     options.validation = true;
     options.staged = staged;
+    options.boundsChecks = boundsChecks;
     options.onMessage = [this](const std::string& message) { messages.push_back(message); };
     device = makeVulkanDevice(options);
   }
@@ -257,6 +258,42 @@ TEST_CASE("two devices live in one process and outlive each other's buffers") {
   CHECK(one->words(*ofOne)[5] == 16);
   one.reset();  // before its buffer and its kernel
   CHECK(two.words(*ofTwo)[5] == 317);
+}
+
+TEST_CASE("a device with bounds checks says what index is out of range") {
+  for (const bool staged : {false, true}) {
+    Machine m(staged, true);
+    const auto kernel = m.kernel("writeAt");
+    const auto cells = m.buffer({7, 7, 7}), empty = m.device->createBuffer(0, "empty");
+    const auto write = [&](const Buffer& buffer, std::uint32_t count, std::uint32_t value, std::uint32_t groups = 1) {
+      m.device->dispatch(*kernel, std::array{Binding{"cells", &buffer}}, block(*kernel, count, value), groups);
+    };
+    const auto outOfBounds = [&](const std::string& says, auto&&... what) {
+      fails(ExitCode::kFailure, "vulkan: kernel writeAt: out of bounds: index " + says, [&] { write(what...); });
+    };
+    write(*cells, 0, 2);
+    outOfBounds("3 of 3 elements of `cells`", *cells, 0, 3);
+    outOfBounds("2147483647 of 3 elements of `cells`", *cells, 0, 0x7fffffff);
+    outOfBounds("-1 of 3 elements of `cells`", *cells, 0, 0xffffffff);
+    outOfBounds("0 of 0 elements of `cells`", *empty, 0, 0);
+    outOfBounds("4294967296 of 3 elements of `few`", *cells, 1, 1);
+    outOfBounds("3 of 3 elements of `few`", *cells, 0, 1, 4);
+    write(*cells, 0, 1);  // a fault does not stay
+    const Words after = m.words(*cells);
+    CHECK((after[1] == 0 && after[2] == 0));
+  }
+}
+
+TEST_CASE("a kernel sees a buffer of the length that was asked for") {
+  for (const bool boundsChecks : {false, true}) {
+    Machine m(false, boundsChecks);
+    const auto kernel = m.kernel("askLength");
+    for (const std::uint32_t length : {1u, 3u, 64u, 1000u}) {
+      const auto cells = m.buffer(Words(length, 7));
+      m.device->dispatch(*kernel, std::array{Binding{"cells", cells.get()}}, block(*kernel, 0, 0), 1);
+      CHECK(m.words(*cells)[0] == length);
+    }
+  }
 }
 
 TEST_CASE("peak bytes follow the buffers held") {

@@ -16,7 +16,7 @@
 #include <utility>
 
 #include "host/devices/cpu/crew.h"
-#include "host/devices/cpu/kernel-fault.h"
+#include "host/devices/kernel-fault.h"
 #include "host/kernels/compiler-tools.h"
 
 namespace tessera {
@@ -71,10 +71,7 @@ using Entry = void (*)(GroupRange*, void* entryPointParams, void* globalParams);
 
 class CpuKernel final : public Kernel {
  public:
-  explicit CpuKernel(const CompiledKernel& compiled)
-      : compiled_(compiled),
-        description_(compiled.file.empty() ? "cpu: kernel " + compiled.stage
-                                           : fmt::format("kernel {} ({})", compiled.stage, compiled.file.string())) {
+  explicit CpuKernel(const CompiledKernel& compiled) : compiled_(compiled), description_(describe(compiled, "cpu")) {
     if (compiled.route != Route::kCpp) fail(fmt::format("cpu: kernel {} was not compiled for a CPU", compiled.stage));
     library_ = dlopen(compiled.binary.c_str(), RTLD_NOW | RTLD_LOCAL);
     if (library_ == nullptr) fail(fmt::format("cpu: kernel {} cannot be loaded: {}", compiled.stage, dlerror()));
@@ -183,17 +180,15 @@ class CpuDevice final : public Device {
     alignas(kCacheLine) std::byte globals[kMaxGlobals], frame[kMaxBlock];
     fillGlobals(cpu->compiled(), bindings, block, globals, frame);
     const std::uint64_t begin = nowNs();
-    setRunningKernel(cpu->description());
     try {
+      const RunningKernel running(cpu->description());
       if (shuffleSeed_ == 0)
         spread(*crew_, groups, [&](std::uint32_t first, std::uint32_t last) { cpu->run(first, last, globals); });
       else
         runShuffled(*cpu, groups, globals);
     } catch (const std::out_of_range& error) {  // Slang's bounds checks, where they are compiled in
-      setRunningKernel(nullptr);
-      failOutOfBounds(*cpu, bindings, error.what());
+      explain(*cpu, bindings, error.what());
     }
-    setRunningKernel(nullptr);
     times_.push_back({cpu->compiled().stage, begin, nowNs()});
   }
 
@@ -205,8 +200,8 @@ class CpuDevice final : public Device {
   static constexpr std::size_t kMaxGlobals = 1024, kMaxBlock = 4096;
 
   /// `numbers` are those that host/kernels/slang-compiler.cpp has the check throw.
-  [[noreturn]] static void failOutOfBounds(const CpuKernel& kernel, std::span<const Binding> bindings,
-                                           const std::string& numbers) {
+  [[noreturn]] static void explain(const CpuKernel& kernel, std::span<const Binding> bindings,
+                                   const std::string& numbers) {
     long long index = 0;
     std::size_t count = 0, address = 0;
     std::istringstream(numbers) >> index >> count >> address;
@@ -215,9 +210,7 @@ class CpuDevice final : public Device {
     });
     const std::string what =
         holder == bindings.end() ? std::string("an array in it") : fmt::format("`{}`", holder->name);
-    throw Error(
-        kernel.compiled().file.empty() ? ExitCode::kFailure : ExitCode::kUsage,  // a user's kernel is input
-        fmt::format("{}: out of bounds: index {} of {} elements of {}", kernel.description(), index, count, what));
+    failOutOfBounds(kernel.compiled(), "cpu", index, count, what);
   }
 
   /// The struct of globals: a pointer to the block, and a pointer and an element count for each structured buffer.

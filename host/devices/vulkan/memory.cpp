@@ -19,7 +19,6 @@ vk::raii::Device makeDevice(const Adapter& adapter) {
   vk::PhysicalDeviceFeatures features;
   features.shaderInt64 = adapter.features.shaderInt64;
   features.shaderFloat64 = adapter.features.shaderFloat64;
-  features.shaderFloat64 = adapter.features.shaderFloat64;
   // For the draw baseline: gl_PrimitiveID in fragment shaders, and large meshes.
   features.geometryShader = adapter.features.geometryShader;
   features.fullDrawIndexUint32 = adapter.features.fullDrawIndexUint32;
@@ -36,7 +35,8 @@ Machine::Machine(const VulkanOptions& options, vk::QueueFlags queueFlags)
       adapter(selectAdapter(instance.adapters(queueFlags), options.select, instance.complaints())),
       device(makeDevice(adapter)),
       memory(adapter.physical.getMemoryProperties()),
-      staged(options.staged) {}
+      staged(options.staged),
+      boundsChecks(options.boundsChecks) {}
 
 int Machine::memoryType(std::uint32_t typeBits, vk::MemoryPropertyFlags flags) const {
   for (std::uint32_t i = 0; i < memory.memoryTypeCount; ++i)

@@ -16,7 +16,7 @@ struct Machine {
   Adapter adapter;
   vk::raii::Device device;
   vk::PhysicalDeviceMemoryProperties memory;
-  bool staged;  ///< VulkanOptions::staged
+  bool staged, boundsChecks;  ///< as in VulkanOptions
   std::uint64_t heldBytes = 0, peakBytes = 0;
 
   explicit Machine(const VulkanOptions& options, vk::QueueFlags queueFlags = vk::QueueFlagBits::eCompute);

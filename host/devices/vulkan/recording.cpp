@@ -70,7 +70,7 @@ void Recording::copy(std::shared_ptr<Block> from, vk::DeviceSize fromOffset, std
   inUse_.push_back(std::move(to));
 }
 
-vk::DescriptorSet Recording::makeSet(const VulkanKernel& kernel, std::span<const std::shared_ptr<Block>> buffers,
+vk::DescriptorSet Recording::makeSet(const VulkanKernel& kernel, std::span<const BoundBuffer> buffers,
                                      std::span<const std::byte> block) {
   // The plain handle, not the RAII one: the whole pool is reset after each run.
   const vk::DescriptorSetAllocateInfo info(*sets_, *kernel.pipeline()->setLayout);
@@ -81,7 +81,9 @@ vk::DescriptorSet Recording::makeSet(const VulkanKernel& kernel, std::span<const
   infos.reserve(buffers.size() + 1);  // the writes point into it
   std::vector<vk::WriteDescriptorSet> writes;
   for (std::size_t i = 0; i < buffers.size(); ++i) {
-    infos.emplace_back(buffers[i]->handle(), 0, VK_WHOLE_SIZE);
+    const vk::DeviceSize words =
+        std::max<vk::DeviceSize>((buffers[i].bytes + 3) / 4, 1);  // Vulkan binds no empty range
+    infos.emplace_back(buffers[i].block->handle(), 0, 4 * words);
     writes.emplace_back(set, kernel.storage()[i].binding, 0, 1, vk::DescriptorType::eStorageBuffer, nullptr,
                         &infos.back());
   }
@@ -95,7 +97,7 @@ vk::DescriptorSet Recording::makeSet(const VulkanKernel& kernel, std::span<const
   return set;
 }
 
-void Recording::dispatch(const VulkanKernel& kernel, std::span<const std::shared_ptr<Block>> buffers,
+void Recording::dispatch(const VulkanKernel& kernel, std::span<const BoundBuffer> buffers,
                          std::span<const std::byte> block, std::uint32_t groupsX, std::uint32_t groupsY) {
   const auto storage = static_cast<std::uint32_t>(buffers.size());
   if (stages_.size() == kMostDispatches || storageDescriptors_ + storage > kMostStorageDescriptors ||
@@ -117,7 +119,7 @@ void Recording::dispatch(const VulkanKernel& kernel, std::span<const std::shared
   storageDescriptors_ += storage;
   stages_.push_back(stage);
   inUse_.push_back(kernel.pipeline());
-  inUse_.insert(inUse_.end(), buffers.begin(), buffers.end());
+  for (const BoundBuffer& buffer : buffers) inUse_.push_back(buffer.block);
 }
 
 void Recording::run() {

@@ -9,6 +9,12 @@
 
 namespace tessera::vulkan {
 
+/// A buffer as a kernel sees it: no larger than it was asked for, whatever its block holds.
+struct BoundBuffer {
+  std::shared_ptr<Block> block;
+  std::uint64_t bytes;
+};
+
 class Recording {
  public:
   explicit Recording(std::shared_ptr<Machine> machine);
@@ -17,8 +23,8 @@ class Recording {
   void copy(std::shared_ptr<Block> from, vk::DeviceSize fromOffset, std::shared_ptr<Block> to, vk::DeviceSize toOffset,
             vk::DeviceSize bytes);
   /// `buffers` in the order of the kernel's storage().
-  void dispatch(const VulkanKernel& kernel, std::span<const std::shared_ptr<Block>> buffers,
-                std::span<const std::byte> block, std::uint32_t groupsX, std::uint32_t groupsY);
+  void dispatch(const VulkanKernel& kernel, std::span<const BoundBuffer> buffers, std::span<const std::byte> block,
+                std::uint32_t groupsX, std::uint32_t groupsY);
   /// Submits what was recorded and waits for it.
   void run();
   /// Times of the dispatches that have run since the last call.
@@ -27,7 +33,7 @@ class Recording {
  private:
   void begin();  // opens the command buffer if it is not open; then a barrier, so that all before is seen
   void readTimestamps();
-  vk::DescriptorSet makeSet(const VulkanKernel& kernel, std::span<const std::shared_ptr<Block>> buffers,
+  vk::DescriptorSet makeSet(const VulkanKernel& kernel, std::span<const BoundBuffer> buffers,
                             std::span<const std::byte> block);
 
   std::shared_ptr<Machine> machine_;

@@ -6,59 +6,42 @@
 #include <cstring>
 #include <map>
 #include <span>
+#include <spirv/unified1/spirv.hpp>
 
 #include "host/kernels/spirv.h"
 
 namespace tessera::vulkan {
 namespace {
 
-// Numbers of the SPIR-V specification, section 3.
-enum Op : std::uint32_t {
-  kOpSource = 3,
-  kOpEntryPoint = 15,
-  kOpExecutionMode = 16,
-  kOpCapability = 17,
-  kOpTypeBool = 20,
-  kOpTypeInt = 21,
-  kOpTypeFloat = 22,
-  kOpTypeVector = 23,
-  kOpTypeMatrix = 24,
-  kOpTypeArray = 28,
-  kOpTypeStruct = 30,
-  kOpTypePointer = 32,
-  kOpConstant = 43,
-  kOpVariable = 59
-};
-constexpr std::uint32_t kGLCompute = 5, kLocalSize = 17, kWorkgroup = 4;
 constexpr std::size_t kHeaderWords = 5;
 
 /// Types and constants seen so far: enough to size group-shared variables.
 struct Sizes {
   std::map<std::uint32_t, std::uint32_t> bytes, constants, pointees;
 
-  void see(Op op, std::span<const std::uint32_t> w) {
+  void see(spv::Op op, std::span<const std::uint32_t> w) {
     switch (op) {
-      case kOpTypeBool:
+      case spv::OpTypeBool:
         bytes[w[1]] = 4;
         break;
-      case kOpTypeInt:
-      case kOpTypeFloat:
+      case spv::OpTypeInt:
+      case spv::OpTypeFloat:
         bytes[w[1]] = w[2] / 8;
         break;
-      case kOpTypeVector:
-      case kOpTypeMatrix:
+      case spv::OpTypeVector:
+      case spv::OpTypeMatrix:
         bytes[w[1]] = bytes[w[2]] * w[3];
         break;
-      case kOpTypeArray:
+      case spv::OpTypeArray:
         bytes[w[1]] = bytes[w[2]] * constants[w[3]];
         break;
-      case kOpTypeStruct:
+      case spv::OpTypeStruct:
         for (std::uint32_t member : w.subspan(2)) bytes[w[1]] += bytes[member];
         break;
-      case kOpTypePointer:
+      case spv::OpTypePointer:
         pointees[w[1]] = w[3];
         break;
-      case kOpConstant:
+      case spv::OpConstant:
         constants[w[2]] = w[3];
         break;
       default:
@@ -77,22 +60,24 @@ SpirvModule readModule(const std::filesystem::path& path) {
   unsigned entries = 0;
   for (std::size_t at = kHeaderWords; at < source.size();) {
     const std::uint32_t count = source[at] >> 16;
-    const Op op = static_cast<Op>(source[at] & 0xffff);
+    const auto op = static_cast<spv::Op>(source[at] & 0xffff);
     if (count == 0 || at + count > source.size()) fail(fmt::format("{}: broken at word {}", path.string(), at));
     const std::span words(source.data() + at, count);
     at += count;
     // Debian 12's validation layer does not know the language number that slangc writes here; nothing refers to it.
-    if (op == kOpSource) continue;
+    if (op == spv::OpSource) continue;
     module.words.insert(module.words.end(), words.begin(), words.end());
     sizes.see(op, words);
-    if (op == kOpCapability) module.capabilities.push_back(words[1]);
-    if (op == kOpEntryPoint && words[1] == kGLCompute) {
+    if (op == spv::OpCapability) module.capabilities.push_back(words[1]);
+    if (op == spv::OpEntryPoint && words[1] == spv::ExecutionModelGLCompute) {
       ++entries;
       const char* name = reinterpret_cast<const char*>(&words[3]);
       module.entry.assign(name, strnlen(name, (count - 3) * 4));
     }
-    if (op == kOpExecutionMode && words[2] == kLocalSize) module.localSize = {words[3], words[4], words[5]};
-    if (op == kOpVariable && words[3] == kWorkgroup) module.groupMemoryBytes += sizes.bytes[sizes.pointees[words[1]]];
+    if (op == spv::OpExecutionMode && words[2] == spv::ExecutionModeLocalSize)
+      module.localSize = {words[3], words[4], words[5]};
+    if (op == spv::OpVariable && words[3] == spv::StorageClassWorkgroup)
+      module.groupMemoryBytes += sizes.bytes[sizes.pointees[words[1]]];
   }
   if (entries != 1) fail(fmt::format("{}: {} compute entry points, there should be 1", path.string(), entries));
   return module;

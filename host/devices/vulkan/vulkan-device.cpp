@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <cstring>
+#include <optional>
 
+#include "host/devices/kernel-fault.h"
+#include "host/devices/vulkan/fault-record.h"
 #include "host/devices/vulkan/recording.h"
 
 namespace tessera::vulkan {
@@ -60,7 +63,9 @@ DeviceInfo describe(const Adapter& adapter) {
 class VulkanDevice : public Device {
  public:
   explicit VulkanDevice(const VulkanOptions& options)
-      : machine_(std::make_shared<Machine>(options)), info_(describe(machine_->adapter)), recording_(machine_) {}
+      : machine_(std::make_shared<Machine>(options)), info_(describe(machine_->adapter)), recording_(machine_) {
+    if (options.boundsChecks) faults_.emplace(machine_);
+  }
 
   const DeviceInfo& info() const override { return info_; }
 
@@ -133,13 +138,17 @@ class VulkanDevice : public Device {
     const auto* ourKernel = dynamic_cast<const VulkanKernel*>(&kernel);
     if (ourKernel == nullptr) fail("a kernel of another device was given to a Vulkan device");
     const std::string& stage = kernel.compiled().stage;
-    std::vector<std::shared_ptr<Block>> buffers;
+    std::vector<BoundBuffer> buffers;
     for (const auto& resource : ourKernel->storage()) {
+      if (resource.name == kFaultsName) {
+        buffers.push_back({faults_->block(), faults_->block()->bytes()});
+        continue;
+      }
       const auto bound =
           std::find_if(bindings.begin(), bindings.end(), [&](const Binding& b) { return b.name == resource.name; });
       if (bound == bindings.end() || bound->buffer == nullptr)
         fail(fmt::format("kernel {}: nothing is bound to '{}'", stage, resource.name));
-      buffers.push_back(ours(*bound->buffer).block());
+      buffers.push_back({ours(*bound->buffer).block(), bound->buffer->bytes()});
     }
     const std::uint32_t expected = kernel.compiled().interface.blockSize;
     if (ourKernel->hasBlock() && block.size() != expected)
@@ -152,7 +161,16 @@ class VulkanDevice : public Device {
     if (rows > most)
       failUnsupported(fmt::format("kernel {}: {} groups, {} runs at most {}", stage, groups, info_.name,
                                   std::uint64_t{most} * kGroupRow));
+    if (!ourKernel->checks()) {
+      recording_.dispatch(*ourKernel, buffers, block, oneRow ? groups : kGroupRow, rows);
+      return;
+    }
+    finish();  // what ran before is not this kernel's
+    faults_->prepare(*ourKernel, buffers);
+    const RunningKernel running(ourKernel->description());
     recording_.dispatch(*ourKernel, buffers, block, oneRow ? groups : kGroupRow, rows);
+    finish();
+    faults_->judge(*ourKernel);
   }
 
   void finish() override {
@@ -179,8 +197,9 @@ class VulkanDevice : public Device {
   std::shared_ptr<Machine> machine_;
   DeviceInfo info_;
   Recording recording_;
-  std::shared_ptr<Block> staging_;  // made when a buffer is not mapped
-  vk::DeviceSize stagedBytes_ = 0;  // of it, since the last finish
+  std::shared_ptr<Block> staging_;     // made when a buffer is not mapped
+  vk::DeviceSize stagedBytes_ = 0;     // of it, since the last finish
+  std::optional<FaultRecord> faults_;  // where kernels are checked
 };
 
 }  // namespace

@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <spirv/unified1/spirv.hpp>
+#include <utility>
+
+#include "host/devices/kernel-fault.h"
 #include "host/devices/vulkan/spirv-module.h"
 
 namespace tessera::vulkan {
@@ -19,11 +23,11 @@ void checkCapabilities(const SpirvModule& module, const Adapter& adapter, const 
     const char* what;
   };
   const Need needs[] = {
-      {10, f.shaderFloat64, "64-bit floats (shaderFloat64)"},
-      {10, f.shaderFloat64, "64-bit floats (shaderFloat64)"},
-      {11, f.shaderInt64, "64-bit integers (shaderInt64)"},
-      {12, f12.shaderBufferInt64Atomics, "64-bit atomics on buffers (shaderBufferInt64Atomics)"},
-      {5345, f12.vulkanMemoryModel, "the Vulkan memory model (vulkanMemoryModel)"},
+      {spv::CapabilityFloat64, f.shaderFloat64, "64-bit floats (shaderFloat64)"},
+      {spv::CapabilityInt64, f.shaderInt64, "64-bit integers (shaderInt64)"},
+      {spv::CapabilityInt64Atomics, f12.shaderBufferInt64Atomics,
+       "64-bit atomics on buffers (shaderBufferInt64Atomics)"},
+      {spv::CapabilityVulkanMemoryModel, f12.vulkanMemoryModel, "the Vulkan memory model (vulkanMemoryModel)"},
   };
   for (std::uint32_t capability : module.capabilities)
     for (const Need& need : needs)
@@ -48,10 +52,11 @@ void checkLimits(const SpirvModule& module, std::size_t storageBuffers, const Ad
 
 }  // namespace
 
-VulkanKernel::VulkanKernel(std::shared_ptr<Machine> machine, const CompiledKernel& compiled) : compiled_(compiled) {
+VulkanKernel::VulkanKernel(std::shared_ptr<Machine> machine, const CompiledKernel& compiled)
+    : compiled_(compiled), description_(describe(compiled, "vulkan")) {
   const std::string who = fmt::format("kernel {}", compiled.stage);
   if (compiled.route == Route::kCpp) fail(who + ": compiled for the CPU, a Vulkan device takes SPIR-V");
-  const SpirvModule module = readModule(compiled.binary);
+  SpirvModule module = readModule(compiled.binary);
 
   std::vector<vk::DescriptorSetLayoutBinding> bindings;
   for (const auto& [name, binding] : compiled.interface.resources) {
@@ -67,6 +72,10 @@ VulkanKernel::VulkanKernel(std::shared_ptr<Machine> machine, const CompiledKerne
   }
   checkCapabilities(module, machine->adapter, who);
   checkLimits(module, storage_.size(), machine->adapter, who);
+  if (machine->boundsChecks) {
+    addChecks(module.words, machine->adapter);
+    bindings.emplace_back(checks_->binding, vk::DescriptorType::eStorageBuffer, 1, vk::ShaderStageFlagBits::eCompute);
+  }
 
   auto made = std::make_shared<Pipeline>();
   made->machine = machine;
@@ -79,6 +88,20 @@ VulkanKernel::VulkanKernel(std::shared_ptr<Machine> machine, const CompiledKerne
     made->pipeline = {device, nullptr, vk::ComputePipelineCreateInfo({}, stage, *made->layout)};
   });
   pipeline_ = std::move(made);
+}
+
+void VulkanKernel::addChecks(std::vector<std::uint32_t>& words, const Adapter& adapter) {
+  const std::uint32_t most = adapter.properties.limits.maxPerStageDescriptorStorageBuffers;
+  if (storage_.size() + 1 > most)
+    failUsage(fmt::format("{}: bounds checks need a storage buffer beside its {}, all that {} has", description_,
+                          storage_.size(), adapter.name()));
+  try {
+    checks_ = addBoundsChecks(words, compiled_.interface.resources);
+  } catch (const Error& error) {
+    throw Error(error.code(), fmt::format("{}: {}", description_, error.what()));
+  }
+  words = std::exchange(checks_->words, {});
+  storage_.push_back({std::string(kFaultsName), checks_->binding});
 }
 
 }  // namespace tessera::vulkan

@@ -29,6 +29,9 @@ struct VulkanOptions {
   bool validation = false;  ///< load VK_LAYER_KHRONOS_validation; kUsage if it is not installed
   /// Takes validation messages (warnings and errors); empty: they go to standard error.
   std::function<void(const std::string&)> onMessage;
+  /// Kernels with bounds checks: dispatch() waits for the kernel and throws as failOutOfBounds() of kernel-fault.h
+  /// does.
+  bool boundsChecks = false;
   bool staged = false;  ///< copy through a staging buffer even where memory is mapped (tests)
 };
 std::unique_ptr<Device> makeVulkanDevice(const VulkanOptions& options = {});

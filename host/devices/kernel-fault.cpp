@@ -1,5 +1,6 @@
-#include "host/devices/cpu/kernel-fault.h"
+#include "host/devices/kernel-fault.h"
 
+#include <fmt/format.h>
 #include <tessera/error.h>
 #include <unistd.h>
 
@@ -33,13 +34,26 @@ void onFault(int signal) {
 
 }  // namespace
 
+std::string describe(const CompiledKernel& kernel, const std::string& api) {
+  return kernel.file.empty() ? fmt::format("{}: kernel {}", api, kernel.stage)
+                             : fmt::format("kernel {} ({})", kernel.stage, kernel.file.string());
+}
+
+void failOutOfBounds(const CompiledKernel& kernel, const std::string& api, std::int64_t index, std::uint64_t count,
+                     const std::string& what) {
+  throw Error(
+      kernel.file.empty() ? ExitCode::kFailure : ExitCode::kUsage,
+      fmt::format("{}: out of bounds: index {} of {} elements of {}", describe(kernel, api), index, count, what));
+}
+
 void sayKernelFaults() {
   struct sigaction action {};
   action.sa_handler = onFault;
   for (const int signal : {SIGFPE, SIGSEGV, SIGBUS, SIGILL}) sigaction(signal, &action, nullptr);
 }
 
-void setRunningKernel(const char* description) { running = description; }
+RunningKernel::RunningKernel(const char* description) { running = description; }
+RunningKernel::~RunningKernel() { running = nullptr; }
 const char* runningKernel() { return running; }
 
 }  // namespace tessera
