@@ -145,19 +145,48 @@ std::string cellName(const Sweep& sweep, const Cell& cell) {
   return cell.twin ? name + " (again)" : name;
 }
 
+std::string commandText(const Command& parts) {
+  std::string command = fmt::format("tessera render {} --size {}x{} --device {}", quoted(parts.input), parts.size.width,
+                                    parts.size.height, quoted(parts.device));
+  if (parts.threads != 0) command += fmt::format(" --threads {}", parts.threads);
+  for (const Axis& axis : axes())
+    if (const auto found = parts.labels.find(axis.name); found != parts.labels.end())
+      command += " --set " + quoted(axis.name + "=" + found->second);
+  for (const auto& [name, value] : parts.labels)
+    if (name.starts_with(kKernel) && !value.empty())
+      command += " --kernel " + quoted(name.substr(kKernel.size()) + "=" + value);
+  if (!parts.attribute.empty()) command += " --attribute " + quoted(parts.attribute);
+  if (!parts.range.empty()) command += " --range " + parts.range;
+  return command + fmt::format(" --repeat {} --error --json -", parts.frames);
+}
+
 std::string cellCommand(const Sweep& sweep, const Cell& cell) {
   const SweepScene& scene = sweep.scenes[cell.scene];
-  // Not to be taken for an option.
-  std::string command = "tessera render " + quoted(scene.text.starts_with('-') ? "./" + scene.text : scene.text);
-  command += fmt::format(" --size {}x{} --device {}", cell.size.width, cell.size.height, quoted(cell.device));
-  if (cell.threads != 0) command += fmt::format(" --threads {}", cell.threads);
-  for (const Axis& axis : axes())
-    if (cell.asked.has(axis.name)) command += " --set " + quoted(axis.name + "=" + cell.asked.get(axis.name));
-  for (const auto& [stage, file] : cell.kernels)
-    command += " --kernel " + quoted(stage + "=" + cell.labels.at(std::string(kKernel) + stage));
-  if (!scene.attribute.name.empty()) command += " --attribute " + quoted(scene.attribute.name);
-  if (const auto& range = scene.attribute.range) command += fmt::format(" --range {},{}", range->least, range->most);
-  return command + fmt::format(" --repeat {} --error --json -", sweep.rounds * sweep.repeats);
+  const auto& range = scene.attribute.range;
+  return commandText({.input = scene.text.starts_with('-') ? "./" + scene.text : scene.text,  // no option
+                      .size = cell.size,
+                      .device = cell.device,
+                      .threads = cell.threads,
+                      .labels = cell.labels,
+                      .attribute = scene.attribute.name,
+                      .range = range ? fmt::format("{},{}", range->least, range->most) : "",
+                      .frames = sweep.rounds * sweep.repeats});
+}
+
+std::vector<std::string> commandWords(std::string_view command) {
+  std::vector<std::string> words(1);
+  bool isQuoted = false;
+  for (std::size_t i = 0; i < command.size(); ++i) {
+    if (command[i] == '\'')
+      isQuoted = !isQuoted;
+    else if (command[i] == ' ' && !isQuoted)
+      words.emplace_back();
+    else if (command[i] == '\\' && !isQuoted && i + 1 < command.size())
+      words.back() += command[++i];
+    else
+      words.back() += command[i];
+  }
+  return words;
 }
 
 std::vector<std::size_t> turnOrder(std::vector<std::size_t> cells, std::uint64_t seed, const std::string& job,

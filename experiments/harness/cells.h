@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "experiments/harness/sweep-file.h"
@@ -44,6 +45,21 @@ std::string variantName(const Sweep& sweep, const Cell& cell);
 std::string cellName(const Sweep& sweep, const Cell& cell);
 /// The `tessera render` line, for sh in the sweep's folder, that renders what the cell does, as often.
 std::string cellCommand(const Sweep& sweep, const Cell& cell);
+
+/// What such a line is made of.
+struct Command {
+  std::string input;  ///< as the sweep's file has it
+  Size size;
+  std::string device;
+  unsigned threads = 0;          ///< 0: not said
+  Labels labels;                 ///< of axes that there are; others are left out
+  std::string attribute, range;  ///< "": not said
+  unsigned frames = 1;
+};
+std::string commandText(const Command& parts);
+/// The words of such a line, without their quotes. Of another text they may be anything: commandText() of what they say
+/// is then another text.
+std::vector<std::string> commandWords(std::string_view command);
 
 /// Where the sweep names no reference, that of a group is its first cell that is not refused; the twin keeps its
 /// number, so that cells have the same on each machine. Whether there was anything to change.

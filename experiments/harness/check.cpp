@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <optional>
 #include <utility>
 
 #include "host/devices/open.h"
@@ -39,15 +40,19 @@ void compile(const Scene& scene, const Variant& asked, const DeviceInfo& device,
     kernels.getAll(kernelRequests(makePlan(scene, variant, device), kernels.files()));
 }
 
-/// Settings that do not go together, with each other, the scene or a user's kernel, are a refusal as that of a device
-/// is.
-Plan planOf(const Scene& scene, const Variant& asked, const DeviceInfo& device, const KernelFiles& files) try {
-  Plan plan = makePlan(scene, asked, device);
-  kernelRequests(plan, files);
-  return plan;
-} catch (const Error& error) {
-  if (error.code() == ExitCode::kUsage) failUnsupported(error.what());
-  throw;
+/// Settings that do not go together, with each other or the scene, and a kernel of a stage that the plan leaves out are
+/// a refusal as that of a device is. A kernel's file that is none is not: nothing could run it.
+Plan planOf(const Scene& scene, const Variant& asked, const DeviceInfo& device, const KernelFiles& files) {
+  std::optional<Plan> plan;
+  try {
+    plan = makePlan(scene, asked, device);
+    checkStages(*plan, files);
+  } catch (const Error& error) {
+    if (error.code() == ExitCode::kUsage) failUnsupported(error.what());
+    throw;
+  }
+  kernelRequests(*plan, files);
+  return std::move(*plan);
 }
 
 std::string mismatches(const Difference& d) {

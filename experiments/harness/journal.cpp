@@ -16,7 +16,7 @@
 
 #include "datasets/text.h"
 #include "experiments/harness/fields.h"
-#include "experiments/harness/row-schema.h"
+#include "experiments/harness/journal-rules.h"
 #include "host/measure/row.h"
 #include "host/support/files.h"
 
@@ -31,48 +31,14 @@ constexpr int kOldestRowSchema = 2;  // version 3 has null where that had a 0 fo
 /// What has been read so far, and what of it must not be there twice.
 struct Reading {
   Record record;
+  JournalRules rules;
   std::map<std::size_t, const Json*> heads;  ///< the cells as the head has them
   std::set<std::string> runs;
   std::set<std::array<std::size_t, 3>> samples;  ///< cell, round, repeat
   std::set<std::array<std::size_t, 4>> again;    ///< and session
 };
 
-/// A row as a check leaves it, with all that rows, summaries and a resumed sweep take from it.
-void checkRow(const Json& row, const Json& cell, const Json& version) {
-  for (const char* const key : {"sweep", "command", "time_ns", "error_samples"})
-    if (row.contains(key)) failField(key, &member(row, key), "a row that has none yet");
-  if (member(row, "schema_version") != version)
-    failField("schema_version", &member(row, "schema_version"),
-              fmt::format("that of the journal, {},", version.dump()));
-  Json whole = row;
-  whole["sweep"] = cell.at("sweep");
-  checkSchema(whole, "", "");
-  if (row.contains("clock")) textAt(row, "clock");
-  if (row.contains("kernel_files"))
-    for (const auto& [stage, file] : objectAt(row, "kernel_files").items()) textAt(file, "sha256");
-  const std::string picture = fmt::format("pictures/{}.png", cell.at("cell").get<std::size_t>());
-  if (row.contains("picture") && textAt(row, "picture") != picture)
-    failField("picture", &member(row, "picture"), picture);
-}
-
-/// The cells of a head say what they are of as the head itself does.
-void checkCell(const Json& cell, const Json& head, const std::string& place) {
-  textAt(cell, "name");
-  textAt(cell, "command");
-  const Json& sweep = objectAt(cell, "sweep");
-  checkSchema(sweep, "/properties/sweep", place + ".sweep");
-  if (member(sweep, "cell") != member(cell, "cell"))
-    failField(place + ".sweep.cell", &member(sweep, "cell"), "the cell's number");
-  for (const char* const key : {"title", "question", "sha256"})
-    if (sweep.at(key) != textAt(objectAt(head, "sweep"), key))
-      failField(fmt::format("{}.sweep.{}", place, key), &sweep.at(key), "that of the head's sweep");
-  if (sweep.value("quick", false) != flagAt(head, "quick"))
-    failField(place + ".sweep.quick", &member(sweep, "quick"), "that of the head");
-}
-
 Sample sampleOf(const Json& head, const Json& line) {
-  checkSchema(member(line, "total_ns"), "/$defs/time", "total_ns");
-  checkSchema(member(line, "stages"), "/properties/time_ns/properties/stages", "stages");
   Sample sample{.round = static_cast<unsigned>(wholeAt(line, "round", head.at("rounds").get<unsigned>() - 1)),
                 .repeat = static_cast<unsigned>(wholeAt(line, "repeat", head.at("repeats").get<unsigned>() - 1)),
                 .session = wholeAt<unsigned>(line, "session"),
@@ -80,13 +46,13 @@ Sample sampleOf(const Json& head, const Json& line) {
                 .error = line.value("error", Json())};
   for (const auto& [stage, ns] : line.at("stages").items())
     sample.times.stages.emplace_back(stage, wholeAt<std::uint64_t>(line.at("stages"), stage.c_str()));
-  if (!sample.error.is_null()) checkSchema(sample.error, "/$defs/errors", "error");
   return sample;
 }
 
 /// Where a resumed session times the reference and its twin once more, it says so; else a sample is there once.
 void takeSample(Reading& reading, std::size_t number, const Json& line) {
   CellRecord& cell = reading.record.cells.at(number);
+  reading.rules.checkSample(line, cell.row);
   const Sample sample = sampleOf(reading.record.head, line);
   const Json& sweep = reading.heads.at(number)->at("sweep");
   const std::array<std::size_t, 3> place{number, sample.round, sample.repeat};
@@ -110,6 +76,7 @@ void take(Reading& reading, const Json& line) {
     if (wholeAt<std::uint16_t>(line, "session") != record.sessions)
       failField("session", &member(line, "session"),
                 fmt::format("{}, the number of sessions before it,", record.sessions));
+    reading.rules.takeSession(line, record.head);
     ++record.sessions;
     return;
   }
@@ -121,11 +88,10 @@ void take(Reading& reading, const Json& line) {
   const auto found = record.cells.find(number);
   if (found == record.cells.end()) failField("cell", &member(line, "cell"), "one of the head's cells");
   CellRecord& cell = found->second;
-  const Json& version = record.head.at("schema_version");
   if (kind == "cell") {
     if (!cell.row.is_null()) failField("cell", &member(line, "cell"), "one that was not checked before");
     const Json& row = objectAt(line, "row");
-    checkRow(row, *reading.heads.at(number), version);
+    reading.rules.takeRow(row, *reading.heads.at(number), record.head);
     if (!reading.runs.insert(row.at("run_id")).second)
       failField("run_id", &member(row, "run_id"), "one that no line before has");
     cell.frameS = finiteAt(line, "frame_s");
@@ -138,7 +104,7 @@ void take(Reading& reading, const Json& line) {
   if (textAt(line, "status") == "ok") failField("status", &member(line, "status"), "what ended the cell");
   cell.row["status"] = textAt(line, "status");
   cell.row["message"] = textAt(line, "message");
-  checkRow(cell.row, *reading.heads.at(number), version);
+  reading.rules.takeRow(cell.row, *reading.heads.at(number), record.head);
 }
 
 void takeHead(Reading& reading, const fs::path& path, const Json& line) {
@@ -165,7 +131,7 @@ void takeHead(Reading& reading, const fs::path& path, const Json& line) {
     const auto number = wholeAt<std::uint32_t>(cell, "cell");
     if (!reading.heads.emplace(number, &cell).second)
       failField(place + ".cell", &member(cell, "cell"), "another number for each cell");
-    checkCell(cell, record.head, place);
+    reading.rules.takeCell(cell, record.head, place);
     record.cells[number];
   }
 }

@@ -5,7 +5,7 @@
 //   seed, jobs
 //            (names), cells: cell, name, command and `sweep` as rows have them
 //   session  session (0, or how often the sweep had been resumed), utc, load (averages over 1, 5, 15 minutes), jobs:
-//            the provenance of each that had something left to do
+//            the provenance of each that had something left to do; null where no worker came to plan it
 //   cell     cell, session, frame_s (seconds of a frame), row: as the check left it
 //   end      cell, session, status, message: what ended a cell after its check
 //   sample   cell, round, repeat, session, total_ns, stages, error (of variants that differ from run to run), again:
@@ -46,7 +46,8 @@ struct Record {
 std::filesystem::path journalOf(const std::filesystem::path& folder);
 
 /// Throws kUsage, with file and line, for what is no journal of this version: each line is as this program writes it,
-/// after those before it, and the rows that come of it are as row.schema.json has them.
+/// after those before it and says no other thing than they (JournalRules), and the rows that come of it are as
+/// row.schema.json has them.
 Record readJournal(const std::filesystem::path& folder);
 
 /// The journal, open for more lines. One process at a time holds it.

@@ -192,8 +192,7 @@ class Runner {
     return record;
   }
 
-  /// The record, with its references for those of the file; all else in its head has to be what the file gives. Names
-  /// and commands of cells, which say the same in words, are as the program put them that began it.
+  /// The record, with its references for those of the file; all else in its head has to be what the file gives.
   const Record& begunRecord() {
     const Json& begun = begun_->head;
     for (const Json& cell : begun.at("cells")) {
@@ -211,11 +210,12 @@ class Runner {
     const Json own = headOf(sweep_, cells_, jobs_);
     for (const auto& [key, value] : own.items())
       if (key != "cells" && begun.contains(key)) hold(key, lineOf(value), lineOf(begun.at(key)));
-    const auto textOf = [](const Json& head, std::size_t i) {
-      return i < head.at("cells").size() ? lineOf(head.at("cells")[i].at("sweep")) : "";
+    const auto textOf = [](const Json& head, std::size_t i, const char* key) {
+      return i < head.at("cells").size() ? lineOf(head.at("cells")[i].at(key)) : "";
     };
     for (std::size_t i = 0; i < std::max(own.at("cells").size(), begun.at("cells").size()); ++i)
-      hold(fmt::format("cells.{}", i), textOf(own, i), textOf(begun, i));
+      for (const char* const key : {"cell", "name", "command", "sweep"})
+        hold(fmt::format("cells.{}.{}", i, key), textOf(own, i, key), textOf(begun, i, key));
     return *begun_;
   }
 
@@ -305,9 +305,10 @@ class Runner {
                         name, file.string()));
   }
 
-  /// Inputs are read, devices opened and kernels compiled before anything is written: what is wrong with them is said
-  /// at once.
+  /// Inputs are read, devices opened and kernels compiled before anything is written: what is wrong with inputs and
+  /// devices is said at once; a kernel that does not compile costs the cells that take it, whose checks say so.
   void prepare(const Job& job) {
+    provenance_[job.name] = nullptr;
     const bool ready = startWorker(job);
     // A worker knows the twin as it was told: of another one it is told anew.
     if (ready && !begun_ && chooseReferences(sweep_, cells_, [&](std::size_t number) {

@@ -215,7 +215,7 @@ def readPlot(folder, sweep):
     raise Refused(f"{path}: not a file; the sweep that gave the rows would be right")
   text = path.read_bytes()
   try:
-    file = visible.everywhere(tomllib.loads(text.decode("utf-8")))
+    file = visible.everywhere(tomllib.loads(text.decode("utf-8-sig")))
   except (ValueError, RecursionError) as error:
     raise Refused(f"{path}: not TOML: {error}") from None
   if file.get("title") != sweep.title:

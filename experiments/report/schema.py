@@ -1,5 +1,6 @@
 """Rows as they come from a file: read, and held against row.schema.json, before anything is made of them."""
 
+import codecs
 import json
 from pathlib import Path
 
@@ -98,6 +99,7 @@ def read(path, newest):
   checker = Checker()
   with path.open("rb") as lines:
     for line, text in enumerate(lines, 1):
+      text = text.removeprefix(codecs.BOM_UTF8)  # some editors put one first; files put together have it further down
       where = f"{path}:{line}"
       if not text.strip():
         continue

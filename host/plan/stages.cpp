@@ -66,14 +66,18 @@ KernelRequest kernelRequest(std::string_view name, const Plan& plan) {
   return request;
 }
 
-std::vector<KernelRequest> kernelRequests(const Plan& plan, const KernelFiles& files) {
+void checkStages(const Plan& plan, const KernelFiles& files) {
   const std::vector<std::string> names = stagesOf(plan);
   for (const auto& [stage, file] : files)
     if (std::ranges::find(names, stage) == names.end())
       failUsage(fmt::format("kernel {} ({}): this plan does not run such a stage; it runs {}", stage, file.string(),
                             fmt::join(names, ", ")));
+}
+
+std::vector<KernelRequest> kernelRequests(const Plan& plan, const KernelFiles& files) {
+  checkStages(plan, files);
   std::vector<KernelRequest> requests;
-  for (const std::string& name : names) {
+  for (const std::string& name : stagesOf(plan)) {
     const auto file = files.find(name);
     KernelRequest own = kernelRequest(name, plan);
     requests.push_back(file == files.end() ? std::move(own) : requestOf(std::move(own), file->second));

@@ -20,10 +20,12 @@ struct Stage {
 const std::vector<Stage>& stages();
 /// The stages that a plan dispatches, retries among them.
 std::vector<std::string> stagesOf(const Plan& plan);
+/// Throws kUsage for a file of a stage that the plan does not dispatch.
+void checkStages(const Plan& plan, const KernelFiles& files);
 /// What to compile for one stage of a plan: its own kernel.
 KernelRequest kernelRequest(std::string_view stage, const Plan& plan);
-/// The same for all of stagesOf(plan), a user's files in place of their stages' own kernels. Throws kUsage for a file
-/// of a stage that the plan does not dispatch, and as requestOf() of user-kernel.h does.
+/// The same for all of stagesOf(plan), a user's files in place of their stages' own kernels. Throws as
+/// checkStages() and requestOf() of user-kernel.h do.
 std::vector<KernelRequest> kernelRequests(const Plan& plan, const KernelFiles& files);
 /// Compiles them, with the cache's files, and checks that the host can bind what the user brought.
 std::vector<CompiledKernel> compileStages(KernelCache& cache, const Plan& plan);

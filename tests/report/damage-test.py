@@ -103,7 +103,31 @@ class Damage(unittest.TestCase):
     refusedWith({"sweep": row["sweep"] | {"cell": "4"}}, 'sweep.cell: is "4"; a whole number would be right')
     refusedWith({"sweep": row["sweep"] | {"swept": ["../../x"]}}, "sweep.swept", "the name of an axis")
     refusedWith({"time_ns": row["time_ns"] | {"rounds": [0]}}, "time_ns.rounds: 1 of them; one for each of the 7")
-    refusedWith({"error": {"id_mismatch": "many"}}, "error.id_mismatch", "a number or null")
+    refusedWith({"error": {"id_mismatch": "many"}}, "error.id_mismatch", "a whole number or null")
+    for field, value, right in (
+      ("id_mismatch", -3, "a number from 0"),
+      ("id_mismatch", 1.5, "a whole number or null"),
+      ("depth_max_abs", -1e-9, "a number from 0"),
+      ("hit_count_not_one", "x", "a whole number or null"),
+    ):
+      for part in ("error", "truth_error"):
+        refusedWith({part: {field: value}}, f"{part}.{field}: is {json.dumps(value)}; {right} would be right")
+    refusedWith({"error": {"id_mismatch": -0.5}, "error_samples": {"id_mismatch": [0]}}, "error.id_mismatch: is -0.5; a number from 0")
+    refusedWith({"error_samples": {"id_mismatch": [0.5]}}, "error_samples.id_mismatch.0: is 0.5; a whole number or null")
+    self.rows.write_text(json.dumps(row | {"error": {"id_mismatch": 1.5}, "error_samples": {"id_mismatch": [1, 2]}}) + "\n")
+    self.assertIsNone(self.read())  # a median of counts
+    refusedWith({"counters": {"tests": 2.5}}, "counters.tests: is 2.5; a whole number")
+    refusedWith({"memory": {"peak_buffer_bytes": 0.5}}, "memory.peak_buffer_bytes: is 0.5; a whole number")
+    refusedWith({"scene": row["scene"] | {"triangles": 1.5}}, "scene.triangles: is 1.5; a whole number")
+    refusedWith({"scene": row["scene"] | {"attribute": {"range": [0]}}}, "scene.attribute.range")
+    refusedWith(json.dumps(row | {"scene": row["scene"] | {"origin": [0, 0, 0]}}).replace("[0, 0, 0]", "[0, 0, 1e999]") + "\n", "scene.origin.2")
+    refusedWith({"time_ns": row["time_ns"] | {"samples": [1.5] * 7}}, "time_ns.samples.0: is 1.5; a whole number")
+    refusedWith({"provenance": {"seed": -1}}, "provenance.seed: is -1; a number from 0")
+    refusedWith({"provenance": {"dirty": 1}}, "provenance.dirty: is 1; true or false")
+    refusedWith({"provenance": {"kernels": {"setup": 1}}}, "provenance.kernels.setup: is 1; text")
+    refusedWith({"provenance": {"utc": 5}}, "provenance.utc: is 5; text would be right")
+    for utc in ("noon", "2026-11-23 12:00:00Z", "2026-11-23T12:00:00Z\n"):
+      refusedWith({"provenance": {"utc": utc}}, "provenance.utc: is ", "text")
     refusedWith({"provenance": {"threads": -1}}, "provenance.threads: is -1; a number from 0")
     refusedWith(json.dumps(row).replace('"status"', '"status": "ok", "status"') + "\n", "there twice")
     refusedWith(json.dumps(row).replace('[256', '[NaN', 1) + "\n", "NaN is no number")
@@ -114,6 +138,12 @@ class Damage(unittest.TestCase):
     self.rows.unlink()
     self.rows.mkdir()
     self.assertIn("not a file", self.read())
+
+  def testByteOrderMark(self):
+    """Of files put together, each may have one."""
+    self.rows.write_text("".join("\ufeff" + line for line in self.lines[:2]), encoding="utf-8")
+    (self.folder / "sweep.toml").write_bytes(b"\xef\xbb\xbf" + (self.folder / "sweep.toml").read_bytes())
+    self.assertEqual(len(support.read(self.folder).cells), 2)
 
   def testSweepFiles(self):
     for plot, part in (("curve = 3", "plot.curve"), ('heat = [["tile"]]', "plot.heat"), ("error = 1", "plot.error"),

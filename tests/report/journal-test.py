@@ -144,6 +144,46 @@ class Edited(unittest.TestCase):
     self.assertFalse(self.outcome("".join(lines[1:]), "no head", 1))
     self.assertFalse(self.outcome("".join(lines[:1] + lines[2:]), "no first session", 2))
 
+  def testWhatOtherLinesSay(self):
+    """An edit that each line alone would allow: the head, the list of axes or another line say otherwise."""
+    lines = [json.loads(line) for line in self.lines()]
+    first = {kind: next(i for i, line in enumerate(lines) if line["kind"] == kind) for kind in ("head", "session", "cell", "sample")}
+    for kind, path, value in (
+      ("head", ("cells", 0, "command"), "rm -rf /"),
+      ("head", ("cells", 0, "command"), lines[0]["cells"][0]["command"].replace("tile=32", "tile=16")),
+      ("head", ("cells", 0, "command"), lines[0]["cells"][0]["command"].replace("count=500", "count=501")),
+      ("head", ("cells", 0, "name"), "another cell"),
+      ("session", ("utc",), 3),
+      ("session", ("load",), "x"),
+      ("session", ("jobs",), {}),
+      ("cell", ("row", "variant", "tile"), "64"),
+      ("cell", ("row", "variant", "tile"), "7"),
+      ("cell", ("row", "variant", "edge"), "float31"),
+      ("cell", ("row", "truth", "sub-pixel"), "5"),
+      ("cell", ("row", "scene", "size"), [64, 32]),
+      ("cell", ("row", "scene", "triangles"), 99),
+      ("cell", ("row", "scene", "sha256"), "0" * 64),
+      ("cell", ("row", "error", "id_mismatch"), -3),
+      ("cell", ("row", "error", "id_mismatch"), 1.5),
+      ("cell", ("row", "error", "id_mismatch"), 64 * 64 + 1),
+      ("cell", ("row", "error", "pixels"), 64),
+      ("cell", ("row", "provenance", "utc"), "today"),
+      ("sample", ("stages",), {"foo": 1}),
+      ("sample", ("stages",), {}),
+      ("sample", ("total_ns",), 0),
+    ):
+      edited = copy.deepcopy(lines)
+      holder = edited[first[kind]]
+      for key in path[:-1]:
+        holder = holder[key]
+      self.assertNotEqual(holder[path[-1]], value)
+      holder[path[-1]] = value
+      text = "".join(json.dumps(line) + "\n" for line in edited)
+      self.assertFalse(self.outcome(text, f"{kind} {path} {value}"), f"{kind} {path} {value}")
+
+  def testByteOrderMark(self):
+    self.assertTrue(self.outcome("\ufeff" + "".join(self.lines()), "a byte order mark"))
+
 
 if __name__ == "__main__":
   unittest.main()

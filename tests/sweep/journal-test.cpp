@@ -28,7 +28,7 @@ TEST_CASE("A journal that another sweep has begun or added to stays as it is") {
                   {"quick", false},
                   {"rounds", 1},
                   {"repeats", 1},
-                  {"jobs", Json::array()},
+                  {"jobs", {"s@cpu"}},
                   {"cells", Json::array()}};
   Journal::create(folder, head);
   const std::string first = readFile(journalOf(folder));
@@ -38,7 +38,8 @@ TEST_CASE("A journal that another sweep has begun or added to stays as it is") {
   CHECK(std::distance(begin(entries), end(entries)) == 1);
 
   const std::size_t before = readJournal(folder).bytes;
-  std::ofstream(journalOf(folder), std::ios::app) << R"({"kind":"session","session":0})" << '\n';
+  std::ofstream(journalOf(folder), std::ios::app)
+      << R"({"kind":"session","session":0,"utc":"2026-11-23T12:00:00Z","load":[0,0,0],"jobs":{"s@cpu":null}})" << '\n';
   const std::string added = readFile(journalOf(folder));
   Journal journal(folder);
   CHECK_THROWS_WITH(journal.cut(before), Catch::Contains("another sweep has written to it meanwhile"));
@@ -70,7 +71,33 @@ TEST_CASE("What is wrong in a journal is said with its line and key") {
            {"\"id_mismatch\":null", "\"id_mismatch\":[]",
             ":3: no line of a sweep's journal: error.id_mismatch: is a list"},
            {"\"twin\":false", "\"twin\":0", ":1: no line of a sweep's journal: cells.0.sweep.twin: is 0"},
-           {"\"cpu\":\"c\"", "\"cpu\":" + std::string(99, '[') + std::string(99, ']'),
+           {"\"id_mismatch\":null", "\"id_mismatch\":-3",
+            ":3: no line of a sweep's journal: error.id_mismatch: is -3; a number from 0 would be right"},
+           {"\"id_mismatch\":null", "\"id_mismatch\":65",
+            ":3: no line of a sweep's journal: error.id_mismatch: is 65; a count of up to 64 pixels would be right"},
+           {"\"variant\":{\"tile\":\"8\"", "\"variant\":{\"tile\":\"64\"",
+            ":3: no line of a sweep's journal: variant.tile: is \"64\"; \"8\", as the head has asked, would be right"},
+           {"\"variant\":{\"tile\":\"8\"", "\"variant\":{\"tile\":\"7\"",
+            ":3: no line of a sweep's journal: variant.tile: "},
+           {"\"size\":[8,8]", "\"size\":[9,8]", ":3: no line of a sweep's journal: scene.size: is a list; [8, 8]"},
+           {"tessera render m.obj", "rm -rf /", ":1: no line of a sweep's journal: cells.0.command: is \"rm -rf"},
+           {"render m.obj", "render $(touch x)", ":1: no line of a sweep's journal: cells.0.command: "},
+           {"render m.obj", "render m.obj;reboot", ":1: no line of a sweep's journal: cells.0.command: "},
+           {"--set tile=8", "--set tile=16", ":1: no line of a sweep's journal: cells.0.command: "},
+           {"--repeat 2", "--repeat 3", ":1: no line of a sweep's journal: cells.0.command: "},
+           {"--repeat 2", "--range 0,1;id --repeat 2", ":1: no line of a sweep's journal: cells.0.command: "},
+           {"\"utc\":\"2026-11-23T12:00:00Z\"", "\"utc\":3", ":2: no line of a sweep's journal: utc: is 3; text"},
+           {"T12:00:00Z", " noon", ":2: no line of a sweep's journal: utc: is \"2026-11-23 noon\"; text such as"},
+           {"\"load\":[0.5,", "\"load\":[", ":2: no line of a sweep's journal: load: is a list; a list of three"},
+           {"\"load\":[0.5,0.5,0.5]", "\"load\":\"x\"", ":2: no line of a sweep's journal: load: is \"x\""},
+           {"\"jobs\":{\"s@cpu\":{\"cpu\":\"c\"}}", "\"jobs\":{}",
+            ":2: no line of a sweep's journal: jobs: is an object; an object with each job"},
+           {"\"jobs\":{\"s@cpu\"", "\"jobs\":{\"t@cpu\"", ":2: no line of a sweep's journal: jobs.t@cpu: "},
+           {"\"stages\":{\"setup\":5}", "\"stages\":{}", ":4: no line of a sweep's journal: stages: is an object"},
+           {"\"stages\":{\"setup\":5}", "\"stages\":{\"foo\":1}", ":4: no line of a sweep's journal: stages.foo: "},
+           {"\"total_ns\":5", "\"total_ns\":0", ":4: no line of a sweep's journal: total_ns: is 0; 5 or more"},
+           {"\"total_ns\":5", "\"total_ns\":5.5", ":4: no line of a sweep's journal: total_ns: is 5.5; a whole"},
+           {"\"cpu\":\"c\",", "\"cpu\":" + std::string(99, '[') + std::string(99, ']') + ",",
             ":3: no line of a sweep's journal: nested"}}) {
     std::string text = whole;
     text.replace(text.find(part), part.size(), other);

@@ -9,7 +9,11 @@ using harness::Json, harness::lineOf;
 
 std::string smallJournal() {
   const Json sweep{{"title", "T"}, {"question", "Q"}, {"sha256", std::string(64, '0')}};
-  Json cell{{"cell", 0}, {"name", "n"}, {"command", "c"}, {"sweep", sweep}};
+  Json cell{
+      {"cell", 0},
+      {"name", "n"},
+      {"command", "tessera render m.obj --size 8x8 --device cpu --threads 1 --set tile=8 --repeat 2 --error --json -"},
+      {"sweep", sweep}};
   cell["sweep"].update({{"cell", 0},
                         {"group", 0},
                         {"reference", true},
@@ -25,7 +29,7 @@ std::string smallJournal() {
                  {"scene", {{"name", "s"}, {"size", {8, 8}}}},
                  {"status", "ok"},
                  {"error", {{"id_mismatch", nullptr}}},
-                 {"provenance", {{"cpu", "c"}}},
+                 {"provenance", {{"cpu", "c"}, {"kernels", {{"setup", "h"}}}}},
                  {"clock", "wall"}};
   return lineOf({{"kind", "head"},
                  {"schema_version", kRowSchemaVersion},
@@ -35,7 +39,11 @@ std::string smallJournal() {
                  {"repeats", 1},
                  {"jobs", {"s@cpu"}},
                  {"cells", Json::array({cell})}}) +
-         lineOf({{"kind", "session"}, {"session", 0}}) +
+         lineOf({{"kind", "session"},
+                 {"session", 0},
+                 {"utc", "2026-11-23T12:00:00Z"},
+                 {"load", {0.5, 0.5, 0.5}},
+                 {"jobs", {{"s@cpu", {{"cpu", "c"}}}}}}) +
          lineOf({{"kind", "cell"}, {"cell", 0}, {"session", 0}, {"frame_s", 0.5}, {"row", row}}) +
          lineOf({{"kind", "sample"},
                  {"cell", 0},

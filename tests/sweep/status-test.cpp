@@ -73,20 +73,33 @@ TEST_CASE("What the planner refuses is unsupported") {
   CHECK(rows[2]["message"].get<std::string>().find("w is not 1") != std::string::npos);
 }
 
+TEST_CASE("A kernel of a stage that the plan leaves out is unsupported") {
+  Desk desk;
+  desk.write("shade.slang", "[numthreads(1, 1, 1)] void shade() {}");
+  desk.write("ends.toml", head("rounds = 1\n[scenes]\nball = \"generate:icosphere?level=1\"\n[kernels]\n"
+                               "shade = [\"\", \"shade.slang\"]\n"));
+  REQUIRE(desk.tessera("sweep ends.toml --out out").code == 0);
+  const auto rows = linesOf(desk, "out/rows.jsonl");
+  REQUIRE(rows.size() == 3);
+  CHECK(rows[2]["status"] == "unsupported");
+  CHECK(rows[2]["message"].get<std::string>().find("does not run such a stage") != std::string::npos);
+}
+
 TEST_CASE("Kernels that are wrong or hang or do not compile cost their own cell") {
   Desk desk;
   const std::string line = "clipSpace[v] = c;";
   desk.write("shifted.slang", transformWith(line, "c.x = c.x + 0.25 * c.w; " + line));
   desk.write("endless.slang", transformWith(line, line + " while (clipSpace[v].x < 3e38) clipSpace[v].x = 0;"));
   desk.write("broken.slang", transformWith(line, "nothing of the kind;"));
+  desk.write("empty.slang", "");
   desk.write("ends.toml",
              head("rounds = 2\ntime-limit = 2\n[scenes]\nball = \"generate:icosphere?level=1\"\n[kernels]\n"
-                  "transform = [\"\", \"shifted.slang\", \"endless.slang\", \"broken.slang\"]\n"));
+                  "transform = [\"\", \"shifted.slang\", \"endless.slang\", \"broken.slang\", \"empty.slang\"]\n"));
   const auto outcome = desk.tessera("sweep ends.toml --out out");
   INFO(outcome.err);
   REQUIRE(outcome.code == 0);
   const auto rows = linesOf(desk, "out/rows.jsonl");
-  REQUIRE(rows.size() == 5);
+  REQUIRE(rows.size() == 6);
   const auto message = [&](std::size_t cell) { return rows[cell].value("message", ""); };
   for (const std::size_t own : {0, 1}) {
     CHECK(rows[own]["status"] == "ok");
@@ -101,7 +114,9 @@ TEST_CASE("Kernels that are wrong or hang or do not compile cost their own cell"
   CHECK(rows[3]["variant"]["binning"] != "");  // as the plan resolved it
   CHECK(rows[4]["status"] == "error");
   CHECK(message(4).find("broken.slang") != std::string::npos);
-  for (const std::size_t bad : {2, 3, 4}) CHECK_FALSE(rows[bad].contains("time_ns"));
+  CHECK(rows[5]["status"] == "error");
+  CHECK(message(5).find("empty.slang): it has no compute entry point") != std::string::npos);
+  for (const std::size_t bad : {2, 3, 4, 5}) CHECK_FALSE(rows[bad].contains("time_ns"));
 }
 
 TEST_CASE("A worker that is killed costs the cell that it was at") {
