@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "datasets/text.h"
+#include "host/support/file-faults.h"
 #include "host/support/files.h"
 #include "host/support/own-files.h"
 #include "host/support/subprocess.h"
@@ -21,6 +22,15 @@ namespace {
 
 constexpr const char* kArchive = "/usr/share/doc/libcgal-demo/data.tar.gz";
 
+/// Whether the archive has given this file since the package was installed. What is no file is made anew.
+bool isFresh(const fs::path& file) {
+  checkOwn(file);
+  std::error_code error;
+  if (!fs::is_regular_file(file, error)) return false;
+  const auto written = fs::last_write_time(file, error);
+  return !error && written > fs::last_write_time(kArchive, error) && !error;
+}
+
 }  // namespace
 
 std::vector<std::string> installedMeshes() {
@@ -28,9 +38,7 @@ std::vector<std::string> installedMeshes() {
   if (!fs::is_regular_file(kArchive, error)) return {};
   const fs::path folder = defaultCacheFolder() / "meshes", list = folder / "names";
   std::string members;
-  checkOwn(list);
-  const auto written = fs::last_write_time(list, error);
-  if (!error && written > fs::last_write_time(kArchive, error)) {
+  if (isFresh(list)) {
     members = readFile(list);
   } else {
     const fs::path tar = findProgram("tar");
@@ -72,10 +80,7 @@ fs::path installedMesh(std::string_view name) {
   if (!plain) failUsage(fmt::format("mesh:{}: not a name; one such as mesh:refined_elephant would be right", name));
   const fs::path folder = defaultCacheFolder() / "meshes", mesh = folder / fmt::format("{}.off", name);
   checkOwn(folder);
-  checkOwn(mesh);
-  // Unpacked anew where the package is newer.
-  const auto unpacked = fs::last_write_time(mesh, error);
-  if (!error && unpacked > fs::last_write_time(archive, error)) return mesh;
+  if (isFresh(mesh)) return mesh;
 
   const fs::path tar = findProgram("tar");
   if (tar.empty()) failUsage(fmt::format("mesh:{}: tar, which unpacks it, is not in PATH", name));
@@ -84,8 +89,9 @@ fs::path installedMesh(std::string_view name) {
     try {
       makeOwnFolder(folder);
     } catch (const std::system_error& problem) {
-      fail(fmt::format("{}: cannot be made: {}; a TESSERA_CACHE that can be written would do", folder.string(),
-                       problem.code().message()));
+      throw Error(codeOf(problem.code().value()),
+                  fmt::format("{}: cannot be made: {}; a TESSERA_CACHE that can be written would do", folder.string(),
+                              problem.code().message()));
     }
     return TemporaryFolder(folder, "unpacked");
   }();
@@ -107,7 +113,8 @@ fs::path installedMesh(std::string_view name) {
     makeOwn(work.path() / member);
     replaceOwn(work.path() / member, mesh);
   } catch (const std::system_error& problem) {
-    fail(fmt::format("{}: cannot be written: {}", mesh.string(), problem.code().message()));
+    throw Error(codeOf(problem.code().value()),
+                fmt::format("{}: cannot be written: {}", mesh.string(), problem.code().message()));
   }
   return mesh;
 }

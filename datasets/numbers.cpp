@@ -1,5 +1,6 @@
 #include "datasets/numbers.h"
 
+#include <algorithm>
 #include <bit>
 #include <charconv>
 #include <cmath>
@@ -10,6 +11,26 @@ namespace {
 /// from_chars takes no plus sign, files do.
 std::string_view withoutPlus(std::string_view word) {
   return word.size() > 1 && word[0] == '+' && word[1] != '-' ? word.substr(1) : word;
+}
+
+/// Whether a decimal number that no double can hold is large, not small: by the power of ten of its first digit that
+/// is not 0.
+bool isLarge(std::string_view number) {
+  const std::size_t end = std::min(number.find_first_of("eE"), number.size());
+  std::int64_t power = 0;
+  bool begun = false, fraction = false;
+  for (const char c : number.substr(0, end)) {
+    fraction |= c == '.';
+    if (c < '0' || c > '9') continue;
+    begun |= c != '0';
+    power += begun && !fraction ? 1 : !begun && fraction ? -1 : 0;
+  }
+  if (end == number.size()) return power > 0;
+  const std::string_view exponent = withoutPlus(number.substr(end + 1));
+  std::int64_t value = 0;
+  if (std::from_chars(exponent.data(), exponent.data() + exponent.size(), value).ec == std::errc::result_out_of_range)
+    return exponent[0] != '-';
+  return power > -value;
 }
 
 }  // namespace
@@ -26,12 +47,10 @@ std::optional<double> toNumber(std::string_view word) {
   word = withoutPlus(word);
   double value = 0;
   auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  // What is too small for a double is a number too; from_chars alone does not tell it from one too large.
+  // What is too small for a double is a number too; from_chars does not tell it from one too large.
   if (error == std::errc::result_out_of_range) {
-    long double wide = 0;
-    error = std::from_chars(word.data(), word.data() + word.size(), wide).ec;
-    value = static_cast<double>(wide);
-    if (std::isinf(value)) return std::nullopt;
+    value = std::copysign(isLarge(word) ? HUGE_VAL : 0.0, word[0] == '-' ? -1 : 1);
+    error = {};
   }
   if (error != std::errc{} || end != word.data() + word.size()) return std::nullopt;
   return value;

@@ -9,7 +9,8 @@ namespace tessera {
 
 /// The whole word as an integer, if it is one that fits.
 std::optional<std::int64_t> toInteger(std::string_view word);
-/// The whole word as a double; what is too small for one is 0. Infinities and NaN count as numbers here.
+/// The whole word as a double; what is too small for one is 0, what is too large infinite. Infinities and NaN count as
+/// numbers here.
 std::optional<double> toNumber(std::string_view word);
 /// The whole word as a finite double, if it is one.
 std::optional<double> toDouble(std::string_view word);

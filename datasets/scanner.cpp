@@ -12,6 +12,7 @@ namespace tessera {
 namespace {
 
 constexpr std::size_t kReportEvery = 1 << 20;  // bytes
+constexpr std::string_view kBeyondFloat = "is beyond float32", kNoReal = "is not a finite number of float32";
 
 }  // namespace
 
@@ -132,36 +133,38 @@ std::string_view Scanner::rest() {
   return {first, static_cast<std::size_t>(last - first)};
 }
 
-double Scanner::slowNumber(std::string_view what) {
+double Scanner::slowNumber(std::string_view what, std::string_view beyond) {
   const std::string_view text = word();
   const auto value = toNumber(text);
   if (!value) fail(fmt::format("{}: {} is not a number", what, shown(text)));
+  const bool digits = text.find_first_of("0123456789") != std::string_view::npos;  // no word for infinity has any
+  if (digits && std::isinf(*value)) fail(fmt::format("{}: {} {}", what, shown(text), beyond));
   return *value;
 }
 
-double Scanner::number(std::string_view what) {
+double Scanner::number(std::string_view what, std::string_view beyond) {
   const char* p = at_;
   double value = 0;
-  if (!takeShortDecimal(p, end_, value) || !wordEndsAt(p)) return slowNumber(what);
+  if (!takeShortDecimal(p, end_, value) || !wordEndsAt(p)) return slowNumber(what, beyond);
   at_ = p;
   return value;
 }
 
 float Scanner::single(std::string_view what) {
   const char* const first = at_;
-  const double value = number(what);
+  const double value = number(what, kBeyondFloat);
   const std::string_view text(first, static_cast<std::size_t>(at_ - first));
   const float single = nearestFloat(text, value);
-  if (std::isinf(single) && !std::isinf(value)) fail(fmt::format("{}: {} is beyond float32", what, shown(text)));
+  if (std::isinf(single) && !std::isinf(value)) fail(fmt::format("{}: {} {}", what, shown(text), kBeyondFloat));
   return single;
 }
 
 double Scanner::real(std::string_view what) {
   const char* const first = at_;
-  const double value = number(what);
+  const double value = number(what, kNoReal);
   if (!std::isfinite(static_cast<float>(value)))
-    fail(fmt::format("{}: {} is not a finite number{}", what, shown({first, static_cast<std::size_t>(at_ - first)}),
-                     std::isfinite(value) ? " of float32" : ""));
+    fail(fmt::format("{}: {} {}", what, shown({first, static_cast<std::size_t>(at_ - first)}),
+                     std::isfinite(value) ? kNoReal : "is not a finite number"));
   return value;
 }
 

@@ -53,7 +53,8 @@ class Scanner {
   /// The word here, which must be there: more() or ahead() was true. The number functions take the word as a number;
   /// `what` is its name in messages.
   std::string_view word();
-  double number(std::string_view what);        ///< infinite and NaN, too
+  /// Infinite and NaN, too. One too large for what it is taken as is refused in the words of `beyond`.
+  double number(std::string_view what, std::string_view beyond = "is beyond float64");
   double real(std::string_view what);          ///< finite, in float32, too
   float single(std::string_view what);         ///< a float32, infinite and NaN, too
   std::int64_t integer(std::string_view what,  ///< of this range; it may be written as a real, 3.0
@@ -90,7 +91,7 @@ class Scanner {
   bool aheadRare();
   void skipBlanks();
   void skipLine();
-  double slowNumber(std::string_view what);
+  double slowNumber(std::string_view what, std::string_view beyond);
   void report();
 
   const FileText& file_;

@@ -1,9 +1,12 @@
 // Files and words.
 #pragma once
 
+#include <tessera/error.h>
+
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -15,7 +18,8 @@ namespace tessera {
 /// A file that is read once, from its beginning to its end.
 class InputFile {
  public:
-  /// Throws kUsage when the file is missing, a folder, a device or unreadable.
+  /// Throws kUsage when the file is missing, a folder, a device or unreadable, or a pipe that finds no writer within
+  /// ten seconds; kFailure for a shortage.
   explicit InputFile(std::filesystem::path path);
   ~InputFile();
   InputFile(const InputFile&) = delete;
@@ -28,11 +32,13 @@ class InputFile {
   std::size_t read(char* into, std::size_t bytes);
 
  private:
-  [[noreturn]] void fail(const char* cause) const;
+  [[noreturn]] void fail(const std::string& cause, ExitCode code = ExitCode::kUsage) const;
+  void awaitWriter();
 
   std::filesystem::path path_;
   int file_ = -1;
   std::uint64_t size_ = 0;
+  std::optional<char> first_;  ///< read while the pipe's writer was looked for
 };
 
 /// The bytes of a whole file.

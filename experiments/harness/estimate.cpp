@@ -17,6 +17,7 @@
 #include "host/measure/kernel-check.h"
 #include "host/measure/measure.h"
 #include "host/oracle/oracle-image.h"
+#include "host/support/file-faults.h"
 #include "host/support/progress.h"
 
 namespace tessera::harness {
@@ -33,8 +34,9 @@ double secondsOf(const auto& action) {
 /// Times of cells in relation to their references, by scene, device and what the cells are made of.
 class Ratios {
  public:
-  /// Lines that are no rows of a sweep are passed over: any file may have that name.
+  /// Lines that are no rows of a sweep are passed over: any file may have that name, and so may a pipe.
   explicit Ratios(const std::filesystem::path& file) {
+    if (!whyNoFile(file).empty()) return;
     std::ifstream stream(file);
     std::map<std::string, double> references;
     std::vector<std::pair<std::string, Json>> rows;

@@ -18,6 +18,7 @@
 #include "experiments/harness/report-keys.h"
 #include "host/kernels/user-kernel.h"
 #include "host/plan/stages.h"
+#include "host/support/file-faults.h"
 #include "host/support/suggest.h"
 #include "host/support/text.h"
 
@@ -90,8 +91,8 @@ std::string readInput(const TomlTable& table, std::string_view key, const toml::
     table.refuse(key, node,
                  fmt::format("'{}': generate:NAME, mesh:NAME or a file that ends in {} would be right", text,
                              fmt::join(known, " ")));
-  std::error_code ignored;
-  if (!fs::is_regular_file(path, ignored)) table.refuse(key, node, fmt::format("{}: no such file", path.string()));
+  if (const std::string why = whyNoFile(path); !why.empty())
+    table.refuse(key, node, fmt::format("{}: {}", path.string(), why));
   return path.string();
 }
 
@@ -253,9 +254,8 @@ std::vector<SweptKernel> readKernels(const TomlTable& table, const fs::path& fol
     for (const toml::node& element : *table.list(key.str(), "a list such as [\"\", \"mine.comp\"]")) {
       const std::string text = textOf(table, key.str(), element, "a file's name, or \"\" for the stage's own kernel,");
       const fs::path file = text.empty() ? fs::path() : (folder / text).lexically_normal();
-      std::error_code ignored;
-      if (!text.empty() && !fs::is_regular_file(file, ignored))
-        table.refuse(key.str(), element, fmt::format("{}: no such file", file.string()));
+      if (const std::string why = text.empty() ? "" : whyNoFile(file); !why.empty())
+        table.refuse(key.str(), element, fmt::format("{}: {}", file.string(), why));
       if (!text.empty()) at(table, key.str(), element, [&] { return languageOf(file); });
       addOnce(table, key.str(), element, kernel.files, file);
       if (!text.empty() && foreign.empty() && !liesIn(folder, file))

@@ -21,6 +21,7 @@
 #include "host/kernels/user-kernel.h"
 #include "host/measure/measure.h"
 #include "host/plan/stages.h"
+#include "host/support/file-faults.h"
 #include "host/support/files.h"
 #include "host/support/progress.h"
 #include "host/support/suggest.h"
@@ -192,8 +193,7 @@ KernelFiles kernelFilesOf(const Options& options) {
     if (std::ranges::find(stages(), stage, &Stage::name) == stages().end())
       failUsage(
           fmt::format("--kernel {}: no such stage; {}", text, whatThereIs(stage, namesOf(stages(), &Stage::name))));
-    std::error_code ignored;
-    if (!fs::is_regular_file(file, ignored)) failUsage(fmt::format("--kernel {}: no such file", text));
+    if (const std::string why = whyNoFile(file); !why.empty()) failUsage(fmt::format("--kernel {}: {}", text, why));
     languageOf(file);
     if (!files.emplace(stage, file).second) failUsage(fmt::format("--kernel {}: the stage has a file already", text));
   }
@@ -211,15 +211,14 @@ Scene sceneOf(const Options& options) {
   Scene scene = [&] {
     Progress progress(fmt::format("reading {}", options.input), 0);
     const auto start = std::chrono::steady_clock::now();
-    return loadInput(options.input, size.width, size.height, attributeOf(options),
-                     [&](std::size_t done, std::size_t total) {
-                       constexpr double kMegabyte = 1e6;
-                       const auto here = static_cast<double>(done), all = static_cast<double>(total);
-                       const double passed =
-                           std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-                       progress.at(0, fmt::format("{:.0f} of {:.0f} MB", here / kMegabyte, all / kMegabyte),
-                                   done == 0 ? std::nullopt : std::optional(passed / here * (all - here)));
-                     });
+    return loadInput(
+        options.input, size.width, size.height, attributeOf(options), [&](std::size_t done, std::size_t total) {
+          constexpr double kMegabyte = 1e6;
+          const auto here = static_cast<double>(done), all = static_cast<double>(total);
+          const double passed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+          progress.at(0, fmt::format("{:.0f} of {:.0f} MB", here / kMegabyte, all / kMegabyte),
+                      done == 0 ? std::nullopt : std::optional(passed / here * (all - here)));
+        });
   }();
   printNotes(scene);
   return scene;

@@ -6,10 +6,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cstring>
 #include <fstream>
 #include <optional>
 #include <string>
+
+#include "host/support/file-faults.h"
 
 namespace tessera {
 namespace {
@@ -36,7 +39,7 @@ struct Box {
 class Header {
  public:
   explicit Header(const fs::path& path) : name_(path.string()), file_(path, std::ios::binary | std::ios::ate) {
-    if (!file_) failUsage(fmt::format("{}: cannot be opened", name_));
+    if (!file_) throw Error(codeOf(errno), fmt::format("{}: cannot be opened: {}", name_, std::strerror(errno)));
     bytes_ = static_cast<std::uint64_t>(file_.tellg());
     file_.seekg(0);
     if (number<std::uint32_t>() != kMagic) broken("it does not begin as one");

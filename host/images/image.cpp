@@ -13,6 +13,7 @@
 #include "host/images/exr-header.h"
 #include "host/images/image-module.h"
 #include "host/images/picture.h"
+#include "host/support/file-faults.h"
 #include "host/support/files.h"
 
 namespace tessera {
@@ -90,19 +91,9 @@ struct ImageOutput::State {
 
   explicit State(const std::string& name) : format(formatOf(name)), path(splitName(name).second), file(path) {}
 
-  /// The libraries do not say that a disk is full: a try does.
-  std::string causeOf(const std::string& said) {
-    try {
-      checkWritten(file.path().parent_path(), said);
-    } catch (const WriteError& error) {
-      return error.what();
-    }
-    return said;
-  }
-
   void write(const imageio::Header& header, const imageio::RowSource& rows) {
     const std::string why = imageModule().write(file.path().string(), format, header, rows);
-    if (!why.empty()) fail(fmt::format("{}: could not be written: {}", path.string(), causeOf(why)));
+    if (!why.empty()) fail(fmt::format("{}: could not be written: {}", path.string(), file.whyNotWhole(why)));
     file.commit();
   }
 };
@@ -193,10 +184,9 @@ struct ImageReader::State {
 ImageReader::ImageReader(const fs::path& path, std::uint64_t limit) : state_(std::make_unique<State>()) {
   State& s = *state_;
   s.name = path.string();
-  std::error_code error;
   if (extensionOf(path) != ".exr") failUsage(fmt::format("{}: only an .exr holds ids and depth", s.name));
-  if (!fs::exists(path, error)) failUsage(fmt::format("{}: no such file", s.name));
-  if (fs::is_directory(path, error)) failUsage(fmt::format("{}: is a folder, not an image file", s.name));
+  // Read twice, from its beginning: a pipe will not do.
+  if (const std::string why = whyNoFile(path); !why.empty()) failUsage(fmt::format("{}: {}", s.name, why));
   checkExr(path, limit);
   std::string why;
   s.file = imageModule().openExr(s.name, why);

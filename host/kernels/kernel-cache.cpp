@@ -20,6 +20,7 @@
 #include "host/kernels/slang-compiler.h"
 #include "host/kernels/slang-sources.h"
 #include "host/kernels/user-kernel.h"
+#include "host/support/file-faults.h"
 #include "host/support/files.h"
 #include "host/support/home.h"
 #include "host/support/own-files.h"
@@ -186,8 +187,9 @@ struct KernelCache::State {
     writeOwn(entry / kInterfaceFile, text);
     return interface;
   } catch (const std::system_error& error) {
-    fail(fmt::format("kernel cache: {}: {}; a TESSERA_CACHE that can be written and has room would do", entry.string(),
-                     error.code().message()));
+    throw Error(codeOf(error.code().value()),
+                fmt::format("kernel cache: {}: {}; a TESSERA_CACHE that can be written and has room would do",
+                            entry.string(), error.code().message()));
   }
 };
 

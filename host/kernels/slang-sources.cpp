@@ -10,6 +10,8 @@
 #include <string_view>
 #include <vector>
 
+#include "host/support/file-faults.h"
+
 namespace tessera {
 namespace {
 
@@ -59,15 +61,17 @@ std::vector<fs::path> namedBy(std::string_view line) {
 
 }  // namespace
 
-std::string readText(const fs::path& path) {
-  std::error_code error;
-  if (fs::is_directory(path, error)) fail(fmt::format("{}: is a folder, not a file", path.string()));
+std::string readText(const fs::path& path, ExitCode refusal) {
+  const auto refuse = [&](const std::string& why, ExitCode code) {
+    throw Error(code == ExitCode::kUsage ? refusal : code, fmt::format("{}: {}", path.string(), why));
+  };
+  if (const std::string why = whyNoFile(path); !why.empty()) refuse(why, ExitCode::kUsage);
   std::ifstream file(path, std::ios::binary | std::ios::ate);
-  if (!file) fail(fmt::format("{}: cannot be read: {}", path.string(), std::strerror(errno)));
+  if (!file) refuse(fmt::format("cannot be read: {}", std::strerror(errno)), codeOf(errno));
   std::string text(static_cast<std::size_t>(std::max<std::streamoff>(file.tellg(), 0)), '\0');
   file.seekg(0);
   file.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (!file) fail(fmt::format("{}: cannot be read", path.string()));
+  if (!file) refuse("cannot be read", ExitCode::kFailure);
   return text;
 }
 
@@ -91,7 +95,7 @@ std::map<fs::path, std::string> slangSources(const fs::path& root, const fs::pat
     pending.pop_back();
     const auto [place, isNew] = sources.try_emplace(file);
     if (!isNew) continue;
-    place->second = readText(file);
+    place->second = readText(file, ExitCode::kUsage);
     scan(place->second, file.parent_path());
   }
   return sources;

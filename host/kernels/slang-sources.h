@@ -1,6 +1,8 @@
 // The Slang files that a kernel reads, found without running slangc: their text goes into the cache's key.
 #pragma once
 
+#include <tessera/error.h>
+
 #include <filesystem>
 #include <map>
 #include <string>
@@ -10,12 +12,13 @@ namespace tessera {
 /// Path -> text of `entry` and of every file that it, or the generated modules' text, names by import, __include,
 /// implementing or #include, transitively. `import a.b_c` is a/b-c.slang or a/b_c.slang, beside the importing file or
 /// under `root`; all that exist are taken, so the set may hold more than slangc reads, never less (the compiler checks
-/// that against slangc's own list). Throws kFailure if `entry` is missing.
+/// that against slangc's own list). Throws kUsage if one of them cannot be read.
 std::map<std::filesystem::path, std::string> slangSources(const std::filesystem::path& root,
                                                           const std::filesystem::path& entry,
                                                           const std::string& generated);
 
-/// Whole file; throws kFailure if it cannot be read.
-std::string readText(const std::filesystem::path& path);
+/// Whole file. Throws `refusal` if the name leads to no file or to one that may not be read: kUsage is right where a
+/// user named it. kFailure for a shortage.
+std::string readText(const std::filesystem::path& path, ExitCode refusal = ExitCode::kFailure);
 
 }  // namespace tessera

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "host/kernels/slang-sources.h"
+#include "host/support/file-faults.h"
 
 namespace tessera {
 namespace {
@@ -80,18 +81,18 @@ Language languageOf(const KernelRequest& request) {
 }
 
 KernelRequest requestOf(KernelRequest own, const fs::path& file) {
-  std::error_code error;
-  if (!fs::is_regular_file(file, error)) failUsage(fmt::format("{}: no such file", describe(own.stage, file)));
+  if (const std::string why = whyNoFile(file); !why.empty())
+    failUsage(fmt::format("{}: {}", describe(own.stage, file), why));
   const Language language = languageOf(file);
   if (language == Language::kGlsl && own.route == Route::kCpp)
     failUnsupported(fmt::format(
         "{}: GLSL reaches Vulkan devices only; the CPU device takes .slang, or .hlsl with one thread a group",
         describe(own.stage, file)));
   for (const char* const generated : {"settings.slang", "variant.slang", "settings.glsl"})
-    if (fs::exists(file.parent_path() / generated, error))
+    if (std::error_code error; fs::exists(file.parent_path() / generated, error))
       failUsage(fmt::format("{}: {} beside it would hide the generated one; another name would do",
                             describe(own.stage, file), generated));
-  own.entry = language == Language::kGlsl ? "main" : entryOf(own, file, readText(file));
+  own.entry = language == Language::kGlsl ? "main" : entryOf(own, file, readText(file, ExitCode::kUsage));
   own.file = file;
   return own;
 }

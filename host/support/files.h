@@ -25,6 +25,9 @@ class OutputFile {
   const std::filesystem::path& target() const;  ///< as it was given, for messages
   /// The temporary file to write into, made by the first call.
   const std::filesystem::path& path();
+  /// Why what a library wrote into path() is not whole, as well as its folder tells; else what the library `said`. A
+  /// try tells more than libraries do of a full disk.
+  std::string whyNotWhole(const std::string& said);
   /// Checks that the temporary file has these bytes (unless said, any number but none), syncs it, and renames or copies
   /// it. Throws kFailure with name and cause; what was there is still there then.
   void commit(std::optional<std::uintmax_t> bytes = {});
@@ -67,10 +70,11 @@ bool isStdout(const std::filesystem::path& target);
 /// Throws kUsage where two outputs are one file, under whatever names, or one is an input. Devices may be named twice.
 void checkApart(const std::vector<std::filesystem::path>& outputs, const std::vector<std::filesystem::path>& inputs);
 
-/// A folder that others write into for us, such as compilers, cannot be written: the fault is none of theirs.
+/// A folder that others write into for us, such as compilers, cannot be written: the fault is none of theirs. kUsage
+/// where it is none or may not be written, kFailure where there is no room.
 class WriteError : public Error {
  public:
-  explicit WriteError(const std::string& line) : Error(ExitCode::kFailure, line) {}
+  using Error::Error;
 };
 
 /// A new folder, removed with all that is in it at the end. Throws WriteError with folder and cause if it cannot be
@@ -91,6 +95,10 @@ std::filesystem::path temporaryRoot();
 
 /// Writes a new file into a temporary folder. Throws WriteError.
 void writeInto(const std::filesystem::path& path, std::string_view text);
+
+/// The error that keeps files of a quarter of a mebibyte from `folder`, by what a program that failed there said or by
+/// trying; 0 where there is none.
+int faultOf(const std::filesystem::path& folder, std::string_view said);
 
 /// For a program that failed and whose files go into `folder`: throws WriteError if the folder is why, by what the
 /// program said or by trying.

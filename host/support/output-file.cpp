@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <system_error>
 
+#include "host/support/file-faults.h"
 #include "host/support/files.h"
 #include "host/support/output-place.h"
 #include "host/support/temporary.h"
@@ -46,8 +47,6 @@ struct OutputFile::State {
   }
   State(const State&) = delete;
 
-  static bool isFull(int error) { return error == ENOSPC || error == EDQUOT || error == EIO || error == EMFILE; }
-
   fs::path folder() const { return place.isFile() ? folderOf(place.file) : temporaryRoot(); }
   std::string stem() const { return place.isFile() ? place.file.filename().string() : "tessera-output"; }
 
@@ -58,7 +57,7 @@ struct OutputFile::State {
   } catch (const std::system_error& error) {
     const std::string line = fmt::format("{}: no file can be made in {}: {}", place.name.string(), folder().string(),
                                          error.code().message());
-    throw Error(isFull(error.code().value()) ? ExitCode::kFailure : refusal, line);
+    throw Error(codeOf(error.code().value()) == ExitCode::kFailure ? ExitCode::kFailure : refusal, line);
   }
 
   void copyToStream(int from) {
@@ -96,6 +95,15 @@ const fs::path& OutputFile::target() const { return state_->place.name; }
 const fs::path& OutputFile::path() {
   if (!state_->temporary) state_->makeTemporary(ExitCode::kFailure);
   return state_->temporary->path();
+}
+
+std::string OutputFile::whyNotWhole(const std::string& said) try {
+  const fs::path folder = path().parent_path();
+  if (!state_->place.isFile()) checkWritten(folder, said);  // another TMPDIR helps
+  const int error = faultOf(folder, said);
+  return error == 0 ? said : causeOf(error);
+} catch (const WriteError& error) {
+  return error.what();
 }
 
 void OutputFile::commit(std::optional<std::uintmax_t> bytes) {

@@ -57,13 +57,12 @@ struct AppendedFile::State {
     char last = '\n';
     // A line that another program left half is not ours to cut, nor to go on with.
     if (about.st_size > 0 && pread(file, &last, 1, about.st_size - 1) == 1 && last != '\n') text.insert(0, 1, '\n');
-    ssize_t put = 0;
-    do put = write(file, text.data(), text.size());
-    while (put < 0 && errno == EINTR);
-    int error = put < 0 ? errno : put < static_cast<ssize_t>(text.size()) ? ENOSPC : 0;
+    // In one write, where there is room; where there is not, writing the rest tells why.
+    int error = writeBytes(file, text);
     if (error == 0 && !synced(file)) error = errno;
     if (error == 0) return;
-    if (put > 0 && ftruncate(file, about.st_size) != 0)
+    struct stat grown {};
+    if ((fstat(file, &grown) != 0 || grown.st_size != about.st_size) && ftruncate(file, about.st_size) != 0)
       fail(fmt::format("{}: could not be written: {}; its last line is cut short, and could not be taken away: {}",
                        place.name.string(), causeOf(error), causeOf(errno)));
     if (!place.there && about.st_size == 0) unlink(place.file.c_str());

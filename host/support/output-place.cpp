@@ -15,12 +15,13 @@
 #include <system_error>
 #include <thread>
 
+#include "host/support/file-faults.h"
+
 namespace tessera {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::chrono::seconds kReaderTime{10};
 constexpr int kMostLinks = 40;  // as Linux has it
 
 [[noreturn]] void refuse(const fs::path& name, const std::string& why) {
@@ -117,7 +118,7 @@ int openStream(const OutputPlace& place) {
     return copy;
   }
   const bool pipe = place.there && S_ISFIFO(place.there->st_mode);
-  const auto end = std::chrono::steady_clock::now() + kReaderTime;
+  const auto end = std::chrono::steady_clock::now() + kPipeTime;
   for (;;) {
     const int stream = open(place.file.c_str(), O_WRONLY | O_NOCTTY | O_CLOEXEC | (pipe ? O_NONBLOCK : 0));
     if (stream >= 0) {
@@ -128,7 +129,7 @@ int openStream(const OutputPlace& place) {
     if (!pipe || errno != ENXIO) refuse(place.name, fmt::format("cannot be opened: {}", causeOf(errno)));
     if (std::chrono::steady_clock::now() > end)
       refuse(place.name,
-             fmt::format("is a pipe that nothing has read for {} s; start its reader first", kReaderTime.count()));
+             fmt::format("is a pipe that nothing has read for {} s; start its reader first", kPipeTime.count()));
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
 }

@@ -1,11 +1,19 @@
 // Input that is missing or broken and output that cannot be written: one line, exit code 2, and no file, whole or half.
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
+#include <cstdlib>
+#include <future>
+#include <mutex>
+#include <tuple>
 
 #include "run-tessera.h"
 
 using tessera::test::Desk;
+using tessera::test::Outcome;
 
 TEST_CASE("Input that is missing or broken is refused") {
   Desk desk;
@@ -94,7 +102,7 @@ TEST_CASE("A cache and a compiler that cannot be used are one line") {
   desk.write("file", "");
   const auto cache = desk.tessera("render two.obj -o a.png --size 16x16", "TESSERA_CACHE=file/below");
   INFO(cache.err);
-  CHECK(cache.code != 0);
+  CHECK(cache.code == 2);
   CHECK(cache.complainsOnce());
   const auto compiler = desk.tessera("render two.obj -o a.png --size 16x16", "SLANGC=/no/such/slangc");
   INFO(compiler.err);
@@ -102,4 +110,112 @@ TEST_CASE("A cache and a compiler that cannot be used are one line") {
   CHECK(compiler.complainsOnce());
   CHECK(compiler.err.find("/no/such/slangc") != std::string::npos);
   CHECK(desk.names() == std::vector<std::string>{"file", "two.obj"});
+}
+
+TEST_CASE("What is no file is named as what it is where a kernel is asked for") {
+  Desk desk;
+  desk.write("two.obj", tessera::test::twoTriangles());
+  std::filesystem::create_directory(desk.path() / "folder.slang");
+  std::filesystem::create_symlink("/dev/zero", desk.path() / "zero.slang");
+  REQUIRE(mkfifo((desk.path() / "pipe.slang").c_str(), 0600) == 0);
+  const std::string sweep = "title = \"T\"\nquestion = \"Q\"\nsizes = [16]\n";
+  for (const auto& [file, what] : {std::pair{"none.slang", "no such file"},
+                                   {"folder.slang", "is a folder; a file would be right"},
+                                   {".", "is a folder; a file would be right"},
+                                   {"/dev/null", "is a device; a file would be right"},
+                                   {"zero.slang", "is a device; a file would be right"},
+                                   {"pipe.slang", "is a pipe; a file would be right"}}) {
+    checkRefused(desk, fmt::format("render two.obj --kernel transform={}", file), fmt::format("{}: {}", file, what));
+    desk.write("a.toml",
+               sweep + fmt::format("[scenes]\ntwo = \"two.obj\"\n[kernels]\ntransform = [\"\", \"{}\"]\n", file));
+    checkRefused(desk, "expand a.toml", fmt::format("{}: {}", std::string(file) == "." ? "" : file, what));
+  }
+  std::filesystem::rename(desk.path() / "pipe.slang", desk.path() / "pipe.obj");
+  desk.write("a.toml", sweep + "[scenes]\ntwo = \"pipe.obj\"\n");
+  checkRefused(desk, "expand a.toml", "pipe.obj: is a pipe; a file would be right");
+  std::filesystem::rename(desk.path() / "pipe.obj", desk.path() / "pipe.exr");
+  checkRefused(desk, "compare pipe.exr pipe.exr", "pipe.exr: is a pipe; a file would be right");
+}
+
+TEST_CASE("Files and folders that may not be read or written are bad input") {
+  Desk desk;
+  desk.write("two.obj", tessera::test::twoTriangles());
+  desk.write("secret.obj", tessera::test::twoTriangles());
+  desk.write("secret.slang", "[numthreads(1, 1, 1)] void transform() {}");
+  desk.write("user.slang", "import secret;\n[numthreads(1, 1, 1)] void transform() {}");
+  for (const char* const name : {"secret.obj", "secret.slang"})
+    std::filesystem::permissions(desk.path() / name, std::filesystem::perms::none);
+  std::filesystem::create_directory(desk.path() / "locked");
+  std::filesystem::permissions(desk.path() / "locked", std::filesystem::perms(0555));
+  std::filesystem::permissions(desk.path(), std::filesystem::perms(0755));
+  // Root may read and write all of it.
+  const std::string asNobody = geteuid() == 0 ? "setpriv --reuid=65534 --regid=65534 --clear-groups" : "";
+  desk.tessera("render two.obj -q");  // compiles the stages' own kernels, which all may read
+  for (const auto& [arguments, cache, named] :
+       {std::tuple{"render secret.obj", "", "secret.obj: Permission denied"},
+        {"render two.obj --kernel transform=secret.slang", "", "secret.slang: cannot be read: Permission denied"},
+        {"render two.obj --kernel transform=user.slang", "", "secret.slang: cannot be read: Permission denied"},
+        {"render two.obj", "TESSERA_CACHE=locked/cache ", "locked/cache"}}) {
+    const auto outcome = desk.tessera(arguments, cache + asNobody);
+    INFO(arguments << "\n" << outcome.err);
+    CHECK(outcome.code == 2);
+    CHECK(outcome.complainsOnce());
+    CHECK(outcome.err.find(named) != std::string::npos);
+  }
+  std::filesystem::permissions(desk.path() / "locked", std::filesystem::perms(0755));
+}
+
+TEST_CASE("An input that is a pipe has ten seconds to find its writer") {
+  Desk desk;
+  desk.write("two.obj", tessera::test::twoTriangles());
+  for (const char* const name : {"p.obj", "p.toml"}) REQUIRE(mkfifo((desk.path() / name).c_str(), 0600) == 0);
+  std::vector<std::future<void>> waiting;  // at the same time: each takes ten seconds
+  std::mutex mutex;
+  std::vector<std::pair<std::string, Outcome>> outcomes;
+  for (const std::string arguments : {"render p.obj -q", "render p.toml -q", "expand p.toml -q"})
+    waiting.push_back(std::async(std::launch::async, [&, arguments] {
+      const std::filesystem::path err = desk.path() / (arguments.substr(0, 6) + arguments.substr(7) + ".err");
+      const int status = std::system(fmt::format("cd '{}' && timeout 60 '{}' {} </dev/null 2>'{}'",
+                                                 desk.path().string(), TESSERA_PROGRAM, arguments, err.string())
+                                         .c_str());
+      const std::lock_guard lock(mutex);
+      outcomes.emplace_back(arguments,
+                            Outcome{.code = WEXITSTATUS(status), .out = "", .err = desk.read(err.filename())});
+    }));
+  waiting.clear();
+  for (const auto& [arguments, outcome] : outcomes) {
+    INFO(arguments << "\n" << outcome.err);
+    CHECK(outcome.code == 2);
+    CHECK(outcome.complainsOnce());
+    CHECK(outcome.err.find(": is a pipe that nothing has opened to write to for 10 s; start its writer first") !=
+          std::string::npos);
+  }
+  // A writer that is there takes its time.
+  const auto slow = desk.tessera("render p.obj --size 16 -q --json a.jsonl",
+                                 "{ timeout 40 sh -c '{ sleep 12; cat two.obj; } >p.obj' & }; timeout 60");
+  INFO(slow.err);
+  CHECK(slow.code == 0);
+  const auto late = desk.tessera("render p.obj --size 16 -q --json a.jsonl",
+                                 "{ timeout 40 sh -c 'sleep 1; cat two.obj >p.obj' & }; timeout 60");
+  INFO(late.err);
+  CHECK(late.code == 0);
+}
+
+TEST_CASE("Where no more files can be opened that is what an image's error says") {
+  Desk desk;
+  desk.write("two.obj", tessera::test::twoTriangles());
+  desk.tessera("render two.obj --size 16 -o warm.png -o warm.exr");
+  for (const char* const name : {"a.png", "a.exr"}) {
+    bool atTheImage = false, written = false;
+    for (int files = 4; files < 20 && !written; ++files) {
+      const auto outcome = desk.tessera(fmt::format("render two.obj --size 16 -q -o {}", name),
+                                        fmt::format("prlimit --nofile={}", files));
+      INFO(name << ", " << files << " files: " << outcome.err);
+      written = outcome.code == 0;
+      atTheImage |= outcome.err.find(fmt::format("{}: could not be written", name)) != std::string::npos;
+      CHECK((written || outcome.err.find("Too many open files") != std::string::npos));
+    }
+    CHECK(atTheImage == (std::string(name) == "a.png"));  // what an .exr needs at once the kernels have needed before
+    CHECK(written);
+  }
 }

@@ -132,7 +132,7 @@ TEST_CASE("Folders that are full or missing or of others are named") {
   desk.write("two.obj", tessera::test::twoTriangles());
   const auto missing = desk.tessera(kRender + "-o a.png", "TESSERA_CACHE=$PWD/cold TMPDIR=/nowhere/tmp");
   INFO(missing.err);
-  CHECK(missing.code == 1);
+  CHECK(missing.code == 2);
   CHECK(missing.complainsOnce());
   CHECK(missing.err.find("/nowhere/tmp: cannot be written: No such file or directory") != std::string::npos);
   const auto full = desk.tessera(kRender + "-o a.png", "ulimit -f 1; TESSERA_CACHE=$PWD/cold");

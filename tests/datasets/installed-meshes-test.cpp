@@ -1,4 +1,6 @@
 // Real meshes, read where Debian's libcgal-demo installs them: the counts are those of the files' headers.
+#include <sys/stat.h>
+
 #include <chrono>
 #include <cstdlib>
 
@@ -49,4 +51,23 @@ TEST_CASE("An installed mesh is an input by name") {
   CHECK(usageError([] { loadInput("mesh:none"); }).starts_with("mesh:none: no such mesh; "));
   CHECK(usageError([] { loadInput("mesh:../../x"); }).starts_with("mesh:../../x: not a name"));
   CHECK(usageError([] { loadInput("mesh:"); }).starts_with("mesh: of what name? There are 3torus, "));
+}
+
+TEST_CASE("What is no file in the place of an unpacked mesh is replaced") {
+  const Files files;
+  const std::string before = std::getenv("TESSERA_CACHE");  // tests/main.cpp sets it
+  setenv("TESSERA_CACHE", files.path("cache").c_str(), 1);
+  const std::size_t all = installedMeshes().size();
+  const std::filesystem::path mesh = installedMesh("ChineseDragon-10kv"), names = mesh.parent_path() / "names";
+  for (const bool pipe : {false, true})
+    for (const auto& path : {mesh, names}) {
+      INFO(path << (pipe ? ", a pipe" : ", a folder"));
+      std::filesystem::remove_all(path);
+      // A pipe without a writer would be waited for.
+      REQUIRE((pipe ? mkfifo(path.c_str(), 0600) : mkdir(path.c_str(), 0700)) == 0);
+      CHECK(installedMeshes().size() == all);
+      CHECK(loadInput("mesh:ChineseDragon-10kv", 32, 16).triangles.size() == 19994);
+      CHECK(std::filesystem::is_regular_file(path));
+    }
+  setenv("TESSERA_CACHE", before.c_str(), 1);
 }

@@ -1,6 +1,8 @@
 // What every text format here has in common: byte order marks, line ends, encodings, long and strange words.
 #include "datasets/text.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "fixture.h"
@@ -79,8 +81,34 @@ TEST_CASE("UTF-16 and UTF-32 are refused by name in any text format") {
     for (const bool big : {false, true})
       for (const std::size_t width : {2u, 4u}) {
         const std::string path = files.write(name, wide(text, big, width));
-        CHECK(usageError([&] { loadInput(path); }) == path + ": is UTF-16 or UTF-32; UTF-8 would be right");
+        const std::string refusal = path + ": is UTF-16 or UTF-32; UTF-8 would be right";
+        CHECK(usageError([&] { loadInput(path); }) == refusal);
+        files.write(name, wide(text, big, width).substr(width));  // without its mark
+        CHECK(usageError([&] { loadInput(path); }) == refusal);
       }
+}
+
+TEST_CASE("A number beyond double is one beyond float32 in any text format") {
+  const Files files;
+  for (const std::string number : {"1e39", "1e400", "-1e400", "1e99999"}) {
+    const auto refusal = [&](std::string_view what) {
+      return fmt::format("{}: '{}' is not a finite number of float32", what, number);
+    };
+    CHECK(readError(files, "a.obj", "v 0 0 " + number + "\n") == "a.obj:1: " + refusal("vertex (v x y z)"));
+    CHECK(readError(files, "a.off", "OFF\n3 1 0\n0 0 " + number + "\n") == "a.off:3: " + refusal("vertex (x y z)"));
+    std::string stl = kFormats[2].text;
+    stl.replace(stl.find("1 0 0"), 1, number);
+    CHECK(readError(files, "a.stl", stl).ends_with(refusal("vertex x")));
+    std::string ply = kFormats[3].text;
+    ply.replace(ply.find("1 0 0"), 1, number);
+    CHECK(readError(files, "a.ply", ply) == fmt::format("a.ply:12: x: '{}' is beyond float32", number));
+  }
+  std::string doubles = kFormats[3].text;
+  doubles.replace(doubles.find("float x"), 5, "double");
+  doubles.replace(doubles.find("1 0 0"), 1, "-1e400");
+  CHECK(readError(files, "a.ply", doubles) == "a.ply:12: x: '-1e400' is beyond float64");
+  CHECK(readError(files, "a.obj", "v 0 0 inf\n").ends_with("'inf' is not a finite number"));
+  CHECK(readError(files, "a.obj", "v 0 0 1e400x\n").ends_with("'1e400x' is not a number"));
 }
 
 TEST_CASE("The line of a mistake is counted by the three line ends") {
@@ -122,7 +150,10 @@ TEST_CASE("Numbers are the nearest doubles and floats, or no numbers") {
   CHECK(toNumber("-1.5E+3") == -1500);
   CHECK(toNumber("+7") == 7);
   CHECK(toNumber("1e-400") == 0);
-  CHECK(!toNumber("1e400"));
+  CHECK(toNumber("1e400") == HUGE_VAL);
+  CHECK(toNumber("-1e400") == -HUGE_VAL);
+  CHECK(!toDouble("1e400"));
+  CHECK(!toReal("1e400"));
   CHECK(!toDouble("inf"));
   for (const char* const word : {"", "+", "-", ".", "e5", "1e", "1e+", "0x10", "1,5", "1.5.2", "+-1", "--1", "1f", "١"})
     CHECK(!toNumber(word));

@@ -216,7 +216,7 @@ TEST_CASE("Names near the longest work") {
 TEST_CASE("The temporary folder is named where it is missing") {
   const std::string before = std::getenv("TMPDIR") ? std::getenv("TMPDIR") : "";
   setenv("TMPDIR", "/nowhere/tmp", 1);
-  const std::string line = lineOf(ExitCode::kFailure, [] { OutputFile{"/dev/null"}; });
+  const std::string line = lineOf(ExitCode::kUsage, [] { OutputFile{"/dev/null"}; });
   before.empty() ? unsetenv("TMPDIR") : setenv("TMPDIR", before.c_str(), 1);
   CHECK(contains(line, "/nowhere/tmp: cannot be written: No such file or directory"));
 }

@@ -31,7 +31,7 @@ TEST_CASE("A temporary folder is new and its owner's alone and goes away") {
   }
   CHECK_FALSE(fs::exists(path));
   folder.write("file", "");
-  CHECK(contains(lineOf(ExitCode::kFailure, [&] { TemporaryFolder(folder / "file", "stem"); }), "/file: "));
+  CHECK(contains(lineOf(ExitCode::kUsage, [&] { TemporaryFolder(folder / "file", "stem"); }), "/file: "));
 }
 
 TEST_CASE("What a killed run left is cleared and what is in use stays") {

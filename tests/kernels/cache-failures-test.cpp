@@ -36,7 +36,7 @@ TEST_CASE("Missing sources are named") {
   const Workshop shop;
   KernelRequest request = scaleRequest();
   request.source = "rasterizer/none.slang";
-  CHECK(contains(lineOf(ExitCode::kFailure, [&] { shop.open().get(request); }), "rasterizer/none.slang"));
+  CHECK(contains(lineOf(ExitCode::kUsage, [&] { shop.open().get(request); }), "rasterizer/none.slang"));
   CHECK(contains(lineOf(ExitCode::kUsage,
                         [&] {
                           KernelCache({shop.cache, shop.slang / "no-such-folder", false, ""});
@@ -47,14 +47,14 @@ TEST_CASE("Missing sources are named") {
 TEST_CASE("A cache folder that cannot be written is one clear line") {
   const Workshop shop;
   writeText(shop.folder.path() / "file", "not a folder");
-  const std::string line = lineOf(ExitCode::kFailure, [&] {
+  const std::string line = lineOf(ExitCode::kUsage, [&] {
     KernelCache({shop.folder.path() / "file" / "cache", shop.slang, false, ""}).get(scaleRequest());
   });
   CHECK(contains(line, "file/cache"));
   CHECK(contains(line, "TESSERA_CACHE"));
 }
 
-TEST_CASE("A folder or a file in the place of a cached file is cleared away") {
+TEST_CASE("What is no file in the place of a cached file is cleared away") {
   const Workshop shop;
   const std::filesystem::path binary = shop.open().get(scaleRequest(Route::kSpirv)).binary,
                               entry = binary.parent_path();
@@ -75,6 +75,19 @@ TEST_CASE("A folder or a file in the place of a cached file is cleared away") {
   heals(entry, true);
   heals(shop.cache / "tools.json", false);
   CHECK(std::filesystem::is_regular_file(shop.cache / "tools.json"));
+  // A pipe without a writer would be waited for, and a device has no end.
+  for (const std::filesystem::path& path : {binary, entry / "interface.json", shop.cache / "tools.json"}) {
+    INFO(path);
+    std::filesystem::remove_all(path);
+    REQUIRE(mkfifo(path.c_str(), 0600) == 0);
+    CHECK(shop.open().get(scaleRequest(Route::kSpirv)).binary == binary);
+    if (path.filename() == "tools.json") continue;  // written when something is asked
+    CHECK(std::filesystem::is_regular_file(path));
+    std::filesystem::remove(path);
+    std::filesystem::create_symlink("/dev/null", path);
+    CHECK_THROWS_AS(shop.open().get(scaleRequest(Route::kSpirv)), Error);  // others can write it
+    std::filesystem::remove(path);
+  }
 }
 
 TEST_CASE("A cache that others can write is refused") {

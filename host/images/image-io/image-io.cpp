@@ -5,6 +5,8 @@
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 #include <string_view>
 
@@ -114,13 +116,14 @@ std::string writeBands(OIIO::ImageOutput& out, const Header& header, const RowSo
   return !error.empty() ? error : out.close() ? "" : firstLine(out.geterror());
 }
 
-// Nobody reads a .png's last chunk to get its pixels.
-bool endsAsPng(const std::string& file) {
+// Nobody reads a .png's last chunk to get its pixels. Text: what is wrong with it.
+std::string faultOfEnd(const std::string& file) {
   constexpr std::string_view end("\0\0\0\0IEND\xae\x42\x60\x82", 12);
   std::string found(end.size(), '\0');
   std::ifstream in(file, std::ios::binary);
+  if (!in) return std::strerror(errno);
   in.seekg(-static_cast<std::streamoff>(end.size()), std::ios::end);
-  return in.read(found.data(), static_cast<std::streamsize>(found.size())) && found == end;
+  return in.read(found.data(), static_cast<std::streamsize>(found.size())) && found == end ? "" : "its end is missing";
 }
 
 // OpenImageIO does not report what fails when a file's last bytes are flushed, so that the file is read again.
@@ -131,7 +134,8 @@ std::string readBack(const std::string& file, Format format, const Header& heade
   if (spec.width != static_cast<int>(header.width) || spec.height != static_cast<int>(header.height) ||
       spec.nchannels != static_cast<int>(header.channels.size()))
     return "its header reads back otherwise";
-  if (format == Format::kPng && !endsAsPng(file)) return "its end is missing";
+  if (format == Format::kPng)
+    if (std::string fault = faultOfEnd(file); !fault.empty()) return fault;
   // The file may have its channels in another order.
   std::vector<std::size_t> offsets;
   for (int c = 0; c < spec.nchannels; ++c) {
