@@ -69,8 +69,16 @@ void noteMesh(Scene& scene, const PlacedMesh& placed, const std::vector<bool>& d
   for (const std::string& note : mesh.notes) scene.notes.push_back(fmt::format("{}: {}", placed.name, note));
   if (const std::string why = whyNothing(mesh, drawn); !why.empty()) {
     scene.notes.push_back(fmt::format("{}: {}", placed.name, why));
+    scene.unseen = true;
     return;
   }
+  const auto beyond = std::ranges::count_if(mesh.triangles, [&](const Triangle& t) {
+    return std::ranges::any_of(t, [&](std::uint32_t v) { return v >= mesh.positions.size(); });
+  });
+  if (beyond != 0)
+    scene.notes.push_back(fmt::format("{}: {} of {} triangles {} an index out of range and {} not drawn", placed.name,
+                                      beyond, mesh.triangles.size(), beyond == 1 ? "has" : "have",
+                                      beyond == 1 ? "is" : "are"));
   const Rounding file = mesh.float32 ? roundingOf(mesh.positions.data(), mesh.triangles, drawn) : Rounding{};
   const Rounding ours = roundingOf(scene.positions.data() + first, mesh.triangles, drawn);
   const bool files = file.relative() >= ours.relative();
@@ -104,6 +112,7 @@ void noteUnseen(Scene& scene, const std::string& file) {
   }
   if (!any) return;
   const auto where = static_cast<std::size_t>(std::ranges::find(all, true) - all.begin());
+  scene.unseen = true;
   scene.notes.push_back(fmt::format("{}: the camera sees nothing: all triangles lie {}", file, kWhere[where]));
 }
 

@@ -133,7 +133,7 @@ ExitCode render(const RenderOptions& options) {
     writeRow();
     throw;
   }
-  if (scene.notes.empty() && !scene.triangles.empty() && coveredPixels(image) == 0)
+  if (!scene.unseen && !scene.triangles.empty() && coveredPixels(image) == 0)
     say(stderr,
         "warning: {}: no pixel is covered: all of it lies outside the view, between samples or edge-on to the camera\n",
         scene.name);

@@ -180,3 +180,14 @@ TEST_CASE("A process that cannot be made is no fault of the compiler") {
   CHECK(full.complainsOnce());
   CHECK(full.err.find("slangc: cannot be run: Resource temporarily unavailable\n") != std::string::npos);
 }
+
+TEST_CASE("A picture without a pixel is named, where another line says something else, too") {
+  Desk desk;
+  desk.write("thin.obj", "v 0 0 0\nv 1 0 0\nv 0 1e-7 0\nf 1 2 3\nf 1 2 9\n");
+  desk.write("thin.toml", "[[mesh]]\nsource = \"thin.obj\"\n[camera]\neye = [0,0,5]\ntarget = [0,0,0]\n");
+  const auto thin = desk.tessera("render thin.toml --size 16 -q");
+  INFO(thin.err);
+  CHECK(thin.code == 0);
+  CHECK(thin.err.find("1 of 2 triangles has an index out of range and is not drawn") != std::string::npos);
+  CHECK(thin.err.find("no pixel is covered: ") != std::string::npos);
+}

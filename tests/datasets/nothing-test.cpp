@@ -39,6 +39,10 @@ TEST_CASE("A mesh without a triangle that can be seen says so") {
   CHECK(notesOf(files.write("d.off", "OFF\n3 2 0\n0 0 0\n1 0 0\n2 0 0\n3 0 1 2\n3 1 1 1\n")) ==
         Notes{": none of its 2 triangles has an area"});
   CHECK(notesOf(files.write("good.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")).empty());
+  // Some that cannot be drawn, beside one that can; in OBJ indices begin at 1.
+  const Notes two{": 2 of 3 triangles have an index out of range and are not drawn"};
+  CHECK(notesOf(files.write("e.off", "OFF\n3 3 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 1 3\n3 -1 1 2\n")) == two);
+  CHECK(notesOf(files.write("e.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 0 1 2\nf 1 2 4\n")) == two);
   // In a scene, beside a mesh that shows something.
   CHECK(notesOf(files.write("a.toml", "[[mesh]]\nsource = \"good.off\"\n[[mesh]]\nsource = \"b.off\"\n")) ==
         Notes{": b.off: no triangles: 2 points only"});

@@ -34,6 +34,7 @@ struct Scene {
   /// on positions and matrix alone.
   glm::dvec3 origin{0};
   std::vector<std::string> notes;  ///< one line each: what a user would not expect of the input
+  bool unseen = false;  ///< the notes say why nothing can be seen of the whole scene or of one of its meshes
 
   std::size_t vertexCount() const { return positions.empty() ? clip.size() : positions.size(); }
 };
