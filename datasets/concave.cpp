@@ -77,7 +77,7 @@ std::vector<Triangle> takeSpikes(const std::vector<glm::dvec3>& points, Loop& lo
     if (!(glm::dot(tip - before, after - tip) < 0 && glm::cross(tip - before, after - tip) == glm::dvec3(0))) continue;
     take(i);
     if (before == after && loop.size() > 3) take(i % loop.size());  // the corner that is there twice now
-    i = static_cast<std::size_t>(-1);                               // the corners beside it may be tips now
+    i = static_cast<std::size_t>(-1);  // the corners beside it may be tips now
   }
   return triangles;
 }

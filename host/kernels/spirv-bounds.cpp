@@ -1,16 +1,16 @@
 #include "host/kernels/spirv-bounds.h"
 
 #include <fmt/format.h>
+#include <tessera/error.h>
 
 #include <algorithm>
 #include <array>
 #include <initializer_list>
 #include <optional>
-#define SPV_ENABLE_UTILITY_CODE
-#include <tessera/error.h>
-
-#include <spirv/unified1/spirv.hpp>
 #include <utility>
+
+#define SPV_ENABLE_UTILITY_CODE
+#include <spirv/unified1/spirv.hpp>
 
 #include "host/kernels/spirv.h"
 
