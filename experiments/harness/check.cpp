@@ -8,6 +8,8 @@
 #include <optional>
 #include <utility>
 
+#include "experiments/harness/survey.h"
+#include "host/axes/settings.h"
 #include "host/devices/open.h"
 #include "host/images/comparison.h"
 #include "host/measure/image-facts.h"
@@ -22,18 +24,6 @@ namespace tessera::harness {
 namespace {
 
 constexpr std::size_t kOracleBytes = std::size_t{512} << 20;  // of images kept; two are kept whatever they take
-
-Variant counting(Variant variant) {
-  variant.set("counters", "work");
-  return variant;
-}
-
-std::string imageText(const Variant& resolved) {
-  std::string text;
-  for (const Axis& axis : axes())
-    if (axis.kind() == AxisKind::kImage) text += resolved.get(axis.name) + ' ';
-  return text;
-}
 
 void compile(const Scene& scene, const Variant& asked, const DeviceInfo& device, KernelCache& kernels) {
   for (const Variant& variant : {asked, counting(asked)})
@@ -123,11 +113,6 @@ Oracle& Oracles::of(const Scene& scene, const Variant& resolved) {
   }
   kept_.push_front({&scene, image, bytes, std::make_unique<Oracle>(scene, resolved)});
   return *kept_.front().oracle;
-}
-
-Variant joined(Variant variant, const Variant& more) {
-  for (const auto& [axis, value] : more.values()) variant.set(axis, value);
-  return variant;
 }
 
 bool variesFromRunToRun(const Variant& resolved) { return resolved.get("overflow") == "drop"; }

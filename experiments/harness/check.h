@@ -56,7 +56,4 @@ bool variesFromRunToRun(const Variant& resolved);
 /// The error of one frame of such a variant.
 Difference errorOf(const Scene& scene, const Variant& resolved, const Framebuffer& image, Oracles& oracles);
 
-/// `variant` with the settings of `more` on top.
-Variant joined(Variant variant, const Variant& more);
-
 }  // namespace tessera::harness

@@ -149,7 +149,6 @@ Estimate estimate(const Sweep& sweep, const std::vector<Cell>& cells, const Surv
   const double frames = 2 + static_cast<double>(sweep.rounds) * (sweep.warmUp + sweep.repeats);
   const auto addGroup = [&](const std::vector<const Cell*>& run, const GroupTimes& times, double oracle) {
     std::set<std::string> images;
-    if (!sweep.truth.values().empty()) images.insert(imageText(sweep.truth));
     for (const Cell* const cell : run) {
       std::optional<double> ratio;
       if (!cell->reference && !cell->twin) {
@@ -157,7 +156,8 @@ Estimate estimate(const Sweep& sweep, const std::vector<Cell>& cells, const Surv
         ++result.others;
         result.fromRows += ratio.has_value();
       }
-      images.insert(survey.cells[cell->number].image);
+      const std::set<std::string>& own = survey.cells[cell->number].images;
+      images.insert(own.begin(), own.end());
       const double frame = std::min(sweep.timeLimitS, times.frame * ratio.value_or(1));
       result.seconds += times.first + times.attribute + frames * frame;
     }

@@ -23,6 +23,7 @@
 #include "host/measure/row.h"
 #include "host/support/files.h"
 #include "host/support/progress.h"
+#include "host/support/sha256.h"
 #include "host/support/suggest.h"
 #include "host/support/terminal.h"
 

@@ -8,9 +8,9 @@
 #include <map>
 #include <tuple>
 
+#include "host/axes/settings.h"
 #include "host/devices/open.h"
 #include "host/measure/measure.h"
-#include "host/oracle/oracle-image.h"
 #include "host/plan/stages.h"
 #include "host/support/progress.h"
 
@@ -36,9 +36,10 @@ using KernelKey = std::tuple<std::string, std::filesystem::path, Route, VariantM
 }  // namespace
 
 std::string imageText(const Variant& resolved) {
-  const reference::Image image = imageOf(resolved);
-  return fmt::format("{} {} {} {}", static_cast<int>(image.cull), static_cast<int>(image.fill),
-                     static_cast<int>(image.interpolate), image.subPixelBits);
+  std::string text;
+  for (const Axis& axis : axes())
+    if (axis.kind() == AxisKind::kImage) text += resolved.get(axis.name) + ' ';
+  return text;
 }
 
 Survey survey(const Sweep& sweep, const std::vector<Cell>& cells, KernelCache& kernels) {
@@ -56,7 +57,7 @@ Survey survey(const Sweep& sweep, const std::vector<Cell>& cells, KernelCache& k
     if (!devices.contains(key)) devices[key] = open(cell.device, cell.threads);
     const Opened& opened = devices[key];
     if (!opened.device) {
-      result = {opened.whyNot, false, ""};
+      result = {opened.whyNot, false, {}};
       continue;
     }
     if (!scene || loaded != cell.scene || size != cell.size) {
@@ -70,10 +71,9 @@ Survey survey(const Sweep& sweep, const std::vector<Cell>& cells, KernelCache& k
     progress.at(cell.number);
     try {
       const Plan plan = makePlan(*scene, cell.asked, opened.device->info());
-      result.image = imageText(plan.resolved);
-      Variant counting = cell.asked;  // the frame whose work is counted
-      counting.set("counters", "work");
-      for (const Plan& one : {plan, makePlan(*scene, counting, opened.device->info())})
+      result.images = {imageText(plan.resolved)};
+      if (!sweep.truth.values().empty()) result.images.insert(imageText(joined(plan.resolved, sweep.truth)));
+      for (const Plan& one : {plan, makePlan(*scene, counting(cell.asked), opened.device->info())})
         for (const KernelRequest& request : kernelRequests(one, cell.kernels))
           needed.try_emplace({request.stage, request.file, request.route, request.modules}, request);
     } catch (const Error& error) {

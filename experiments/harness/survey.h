@@ -6,6 +6,7 @@
 
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -16,7 +17,9 @@ namespace tessera::harness {
 struct SurveyedCell {
   std::optional<std::string> refused;  ///< why it cannot run here: one line
   bool deviceIsHere = true;
-  std::string image;  ///< cells of one scene and size that have the same have one oracle's image
+  /// What it is held against, as texts: cells of one scene and size that have the same share the oracle's image. One,
+  /// and another of the sweep's truth where there is one.
+  std::set<std::string> images;
 };
 
 struct Survey {
@@ -29,7 +32,7 @@ struct Survey {
 /// as loadInput does.
 Survey survey(const Sweep& sweep, const std::vector<Cell>& cells, KernelCache& kernels);
 
-/// What makes an image of the oracle, as text.
+/// The settings that make an image of the oracle, as text.
 std::string imageText(const Variant& resolved);
 
 }  // namespace tessera::harness

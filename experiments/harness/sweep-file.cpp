@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <openssl/evp.h>
 #include <tessera/error.h>
 
 #include <algorithm>
@@ -19,6 +18,7 @@
 #include "host/kernels/user-kernel.h"
 #include "host/plan/stages.h"
 #include "host/support/file-faults.h"
+#include "host/support/sha256.h"
 #include "host/support/suggest.h"
 #include "host/support/text.h"
 
@@ -397,13 +397,6 @@ void readQuick(const TomlTable& top, Sweep& sweep, bool quick) {
 }
 
 }  // namespace
-
-std::string sha256(std::string_view text) {
-  std::array<unsigned char, 32> digest{};
-  if (EVP_Digest(text.data(), text.size(), digest.data(), nullptr, EVP_sha256(), nullptr) != 1)
-    fail("SHA-256: libcrypto failed");
-  return fmt::format("{:02x}", fmt::join(digest, ""));
-}
 
 Sweep readSweep(const fs::path& path, bool quick, const Changes& changes) {
   Sweep sweep;

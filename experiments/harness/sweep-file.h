@@ -83,9 +83,6 @@ struct Changes {
   std::vector<std::string> devices;  ///< empty: the file's
 };
 
-/// In hexadecimal digits.
-std::string sha256(std::string_view text);
-
 /// Throws kUsage with "file:line:column: key: what is wrong; what would be right". Checks every key (those of [plot]
 /// and
 /// [[expect]] too, which others read), axes and values against the list of axes, and that the reference is one of the

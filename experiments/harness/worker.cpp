@@ -18,6 +18,7 @@
 #include "experiments/harness/fields.h"
 #include "experiments/harness/request.h"
 #include "experiments/harness/watchdog.h"
+#include "host/axes/settings.h"
 #include "host/devices/open.h"
 #include "host/measure/measure.h"
 #include "host/plan/stages.h"
@@ -72,7 +73,7 @@ class Worker {
       std::string refused;
       try {
         for (const bool work : {false, true}) {
-          Plan plan = makePlan(scene, work ? joined(cell.asked, {{"counters", "work"}}) : cell.asked, run.device);
+          Plan plan = makePlan(scene, work ? counting(cell.asked) : cell.asked, run.device);
           if (!work) run.variant = plan.resolved;
           if (!work) run.plan = plan.entries;
           kernelRequests(plan, cell.kernels);

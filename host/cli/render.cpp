@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 
+#include "host/axes/settings.h"
 #include "host/cli/commands.h"
 #include "host/cli/common.h"
 #include "host/cli/times.h"
@@ -33,11 +34,6 @@ struct RenderOptions : Options {
   unsigned repeat = 1;
   bool error = false;
 };
-
-Variant counting(Variant variant) {
-  variant.set("counters", "work");
-  return variant;
-}
 
 /// What is not zero, in pipeline order, in lines of at most 110 columns.
 std::string countersText(const Counters& counters) {

@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <openssl/evp.h>
 #include <tessera/error.h>
 #include <tessera/kernel-cache.h>
 
@@ -24,6 +23,7 @@
 #include "host/support/files.h"
 #include "host/support/home.h"
 #include "host/support/own-files.h"
+#include "host/support/sha256.h"
 
 #ifndef TESSERA_KERNEL_CXX_FLAGS
 #define TESSERA_KERNEL_CXX_FLAGS ""
@@ -36,14 +36,6 @@ namespace fs = std::filesystem;
 
 /// Raised when an entry's files or what makes them changes, so that old entries are not found.
 constexpr const char* kFormat = "tessera kernel 2";
-
-std::string sha256(std::string_view text) {
-  unsigned char digest[EVP_MAX_MD_SIZE];
-  unsigned length = 0;
-  if (EVP_Digest(text.data(), text.size(), digest, &length, EVP_sha256(), nullptr) != 1)
-    fail("SHA-256 is not available in libcrypto");
-  return fmt::format("{:02x}", fmt::join(digest, digest + length, ""));
-}
 
 std::vector<std::string> splitWords(const std::string& text) {
   std::istringstream words(text);

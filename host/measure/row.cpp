@@ -13,6 +13,7 @@
 #include <random>
 
 #include "host/build-info.h"
+#include "host/support/machine.h"
 #include "host/support/terminal.h"
 
 namespace tessera {
@@ -32,13 +33,6 @@ std::string makeRunId(std::chrono::system_clock::time_point now) {
 
 std::string utcText(std::chrono::system_clock::time_point now) {
   return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::chrono::system_clock::to_time_t(now)));
-}
-
-std::string cpuName() {
-  std::ifstream file("/proc/cpuinfo");
-  for (std::string line; std::getline(file, line);)
-    if (line.starts_with("model name")) return line.substr(std::min(line.size(), line.find(':') + 2));
-  return "unknown";
 }
 
 std::string osName() {
@@ -131,7 +125,7 @@ Json provenanceJson(const Run& run, std::chrono::system_clock::time_point now) {
   if (run.device.threads != 0) json["threads"] = run.device.threads;
   if (run.device.correctnessOnly) json["correctness_only"] = true;  // a software driver: its times rank nothing
   json["os"] = osName();
-  json["cpu"] = cpuName();
+  json["cpu"] = processorName();
   if (run.seed) json["seed"] = *run.seed;
   json["utc"] = utcText(now);
   return json;

@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include "experiments/harness/survey.h"
 #include "tests/cli/run-tessera.h"
 
 using nlohmann::json;
@@ -147,4 +148,11 @@ TEST_CASE("The first cell that is not refused is the reference unless the sweep 
   CHECK(all["cells"][1]["refused"].is_null());
   desk.write("a.toml", sweep + "[reference]\nbinning = \"none\"\n");
   CHECK(says(desk.tessera("expand a.toml --no-estimate").out, "(reference, but refused: no ratios)"));
+}
+
+TEST_CASE("Cells share an image of the oracle where all image axes are alike, and only there") {
+  const auto image = [](const tessera::Variant& variant) { return tessera::harness::imageText(variant); };
+  CHECK(image({{"tile", "8"}, {"cull", "back"}}) == image({{"tile", "64"}, {"binning", "none"}, {"cull", "back"}}));
+  CHECK(image({{"cull", "back"}}) != image({{"cull", "front"}}));
+  CHECK(image({{"shade", "id"}}) != image({{"shade", "smooth"}}));
 }

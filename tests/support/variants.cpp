@@ -82,9 +82,4 @@ std::vector<Variant> eachAlone(const Variant& base, const DeviceInfo& device) {
   return all;
 }
 
-Variant joined(Variant variant, const Variant& more) {
-  for (const auto& [name, value] : more.values()) variant.set(name, value);
-  return variant;
-}
-
 }  // namespace tessera

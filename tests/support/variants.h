@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "host/axes/settings.h"  // joined()
+
 namespace tessera {
 
 /// Names of the values of an axis that may change no bit. Of an axis of integers, a few from its least one on; "" is
@@ -26,7 +28,5 @@ std::vector<Variant> combinations(const std::vector<std::string>& axes, const De
 std::vector<Variant> rasterPaths(const DeviceInfo& device);
 /// On top of `base`: the plan's choice, then each lossless value of each axis alone.
 std::vector<Variant> eachAlone(const Variant& base, const DeviceInfo& device);
-/// The settings of `more` on top of those of `variant`.
-Variant joined(Variant variant, const Variant& more);
 
 }  // namespace tessera

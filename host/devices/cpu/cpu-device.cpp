@@ -18,6 +18,7 @@
 #include "host/devices/cpu/crew.h"
 #include "host/devices/kernel-fault.h"
 #include "host/kernels/compiler-tools.h"
+#include "host/support/machine.h"
 
 namespace tessera {
 namespace {
@@ -117,14 +118,6 @@ std::byte* slice(const Buffer& buffer, std::size_t offset, std::size_t bytes, co
   if (offset > cpu.bytes() || bytes > cpu.bytes() - offset)
     fail(fmt::format("cpu: {} of {} bytes at {} of a buffer of {} bytes", what, bytes, offset, cpu.bytes()));
   return cpu.data() + offset;
-}
-
-std::string processorName() {
-  std::ifstream file("/proc/cpuinfo");
-  for (std::string line; std::getline(file, line);)
-    if (const std::size_t colon = line.find(": "); line.rfind("model name", 0) == 0 && colon != std::string::npos)
-      return line.substr(colon + 2);
-  return "CPU";
 }
 
 std::uint64_t nowNs() {
