@@ -69,10 +69,10 @@ Scene sceneOf(const StageBench& bench, const std::string& name, std::uint32_t si
   if (clipSpace) {
     scene.clip = reference::transform(scene);
     scene.positions.clear();
-    scene.normals.clear();
+    scene.streams.clear();
   }
   if (bench.stage == std::string("attribute"))
-    for (const glm::vec3& p : scene.positions) scene.attribute.push_back(p.z);
+    for (const glm::vec3& p : scene.positions.span()) scene.makeStream("z", 1, true).values.push_back(p.z);
   return scene;
 }
 

@@ -37,7 +37,7 @@ Matrix perspective(const Camera& camera, std::uint32_t width, std::uint32_t heig
 
 Matrix frameCamera(const Scene& scene) {
   const auto at = [&](std::size_t v) { return glm::dvec3(scene.positions[v]); };
-  const std::vector<bool> drawn = drawnVertices(scene.positions.size(), scene.triangles, at);
+  const std::vector<bool> drawn = drawnVertices(scene.positions.size(), scene.triangles.span(), at);
   std::vector<glm::dvec3> points;
   Box box;
   for (std::size_t v = 0; v < drawn.size(); ++v) {

@@ -5,6 +5,7 @@
 
 #include <glm/vec3.hpp>
 #include <limits>
+#include <span>
 #include <vector>
 
 namespace tessera {
@@ -17,7 +18,7 @@ bool hasArea(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c);
 /// The corners of the triangles that a frame can show: those with all indices in range, all corners within float32 and
 /// an area.
 template <class PositionOf>  // of an index below `count`
-std::vector<bool> drawnVertices(std::size_t count, const std::vector<Triangle>& triangles, PositionOf positionOf) {
+std::vector<bool> drawnVertices(std::size_t count, std::span<const Triangle> triangles, PositionOf positionOf) {
   std::vector<bool> within(count), drawn(count);
   for (std::size_t v = 0; v < count; ++v) within[v] = withinFloat32(positionOf(v));
   for (const auto& [a, b, c] : triangles)

@@ -8,6 +8,7 @@
 #include "datasets/placing.h"
 #include "datasets/scene-file.h"
 #include "datasets/text.h"
+#include "host/support/suggest.h"
 #include "host/support/text.h"
 
 namespace tessera {
@@ -46,9 +47,8 @@ Scene loadInput(const std::string& input, std::uint32_t width, std::uint32_t hei
   if (extension == ".replay") {
     scene = readReplay(path);
     setSize(scene, width, height);
-    if (!attribute.name.empty() && attribute.name != scene.attributeName)
-      failAttribute(input, attribute.name,
-                    scene.attribute.empty() ? std::vector<std::string>{} : std::vector{scene.attributeName});
+    if (!attribute.name.empty() && scene.stream(attribute.name) == nullptr)
+      failAttribute(input, attribute.name, namesOf(scene.streams, &Stream::name));
     return scene;
   }
   scene.name = generated   ? input.substr(kGenerate.size())
@@ -69,19 +69,32 @@ void append(Scene& scene, const Mesh& mesh) {
   appendPlaced(scene, mesh, positions);
 }
 
+/// Normals of vertices without one: (0, 0, 1), up to so many.
+static void fillNormals(std::vector<float>& normals, std::size_t vertices) {
+  normals.reserve(3 * vertices);
+  while (normals.size() < 3 * vertices) normals.insert(normals.end(), {0.0f, 0.0f, 1.0f});
+}
+
 void appendPlaced(Scene& scene, const Mesh& mesh, const std::vector<glm::vec3>& positions) {
   if (!scene.clip.empty()) fail("a mesh cannot be appended to a scene of clip-space positions");
   const std::size_t first = scene.positions.size(), count = positions.size();
   if (first + count >= kBadIndex || scene.triangles.size() + mesh.triangles.size() >= kBadIndex)
     failUsage(fmt::format("{} vertices and {} triangles: ids and indices reach to {}", first + count,
                           scene.triangles.size() + mesh.triangles.size(), kBadIndex - 1));
-  scene.positions.insert(scene.positions.end(), positions.begin(), positions.end());
-  if (!scene.normals.empty() || !mesh.normals.empty()) {
-    scene.normals.resize(first, glm::vec3(0, 0, 1));
-    scene.normals.insert(scene.normals.end(), mesh.normals.begin(), mesh.normals.end());
-    scene.normals.resize(first + count, glm::vec3(0, 0, 1));
+  std::vector<glm::vec3>& all = scene.positions.own();
+  all.insert(all.end(), positions.begin(), positions.end());
+  if (scene.stream(kNormals) != nullptr || !mesh.normals.empty()) {
+    std::vector<float>& normals = scene.makeStream(kNormals, 3, false).values.own();
+    fillNormals(normals, first);
+    if (const auto* floats = reinterpret_cast<const float*>(mesh.normals.data()))
+      normals.insert(normals.end(), floats, floats + 3 * mesh.normals.size());
+    fillNormals(normals, first + count);
   }
-  scene.attribute.insert(scene.attribute.end(), mesh.attribute.begin(), mesh.attribute.end());
+  for (const Stream& stream : mesh.streams) {
+    std::vector<float>& values = scene.makeStream(stream.name, stream.components, stream.interpolated).values.own();
+    values.resize(first * stream.components, 0.0f);  // meshes before that have no such stream
+    values.insert(values.end(), stream.values.begin(), stream.values.end());
+  }
   scene.triangles.reserve(scene.triangles.size() + mesh.triangles.size());
   for (Triangle t : mesh.triangles) {
     // An index out of range must not reach the vertices of a mesh that comes later.

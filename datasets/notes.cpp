@@ -96,7 +96,7 @@ void noteUnseen(Scene& scene, const std::string& file) {
                               "below the picture"};
   std::array<bool, kWhere.size()> all;
   all.fill(true);
-  const auto drawn = drawnVertices(scene.positions.size(), scene.triangles,
+  const auto drawn = drawnVertices(scene.positions.size(), scene.triangles.span(),
                                    [&](std::size_t v) { return glm::dvec3(scene.positions[v]); });
   bool any = false;
   for (std::size_t v = 0; v < drawn.size(); ++v) {

@@ -84,7 +84,6 @@ void placeMeshes(Scene& scene, std::vector<PlacedMesh> meshes, const AttributeRe
       if (drawn.back()[v]) box.add(worldOf(placed, v));
   }
   scene.origin = originOf(box);
-  scene.attributeName = attribute.name;
   for (std::size_t i = 0; i < meshes.size(); ++i) {
     PlacedMesh& placed = meshes[i];
     const std::size_t first = scene.positions.size();
@@ -99,9 +98,10 @@ void placeMeshes(Scene& scene, std::vector<PlacedMesh> meshes, const AttributeRe
     }
     if (attribute.isCoordinate()) {
       const int axis = attribute.name[0] - 'x';
+      std::vector<float>& values = scene.makeStream(attribute.name, 1, true).values.own();
       for (std::size_t v = 0; v < placed.mesh.positions.size(); ++v)
-        scene.attribute.push_back(scene.origin == glm::dvec3(0) ? scene.positions[first + v][axis]
-                                                                : static_cast<float>(worldOf(placed, v)[axis]));
+        values.push_back(scene.origin == glm::dvec3(0) ? scene.positions[first + v][axis]
+                                                       : static_cast<float>(worldOf(placed, v)[axis]));
     }
     noteMesh(scene, placed, drawn[i], first);
     placed = {};  // a large mesh need not be there twice

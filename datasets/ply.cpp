@@ -73,8 +73,9 @@ class Reader {
       }
       if (hasNormals && (name == "nx" || name == "ny" || name == "nz")) targets[i].normal = &mesh_.normals[0][axis];
       if (name == request_.name && !request_.isCoordinate()) {
-        mesh_.attribute.resize(element.count);
-        targets[i].attribute = mesh_.attribute.data();
+        Stream& stream = mesh_.streams.emplace_back(Stream{name, 1, {}, true});
+        stream.values.resize(element.count);
+        targets[i].attribute = stream.values.begin();
         attribute = &property;
       }
     }
@@ -157,7 +158,7 @@ class Reader {
   void mapAttribute(const PlyProperty& property) {
     const double least = request_.range->least, most = request_.range->most;
     std::uint64_t vertex = 0;
-    for (float& value : mesh_.attribute) {
+    for (float& value : mesh_.streams.back().values) {
       if (!(value >= 0 && value <= kMostMapped))
         failUsage(fmt::format("{}: {} of vertex {}: {} cannot be mapped to a range; integers of 0 to {} can",
                               file_.name, property.name, vertex, value, kMostMapped));

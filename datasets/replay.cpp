@@ -62,9 +62,10 @@ class Reader {
     needLine("end");
     std::string_view word = in_.word();
     if (word == "attribute") {
-      scene.attributeName = in_.wordInLine("name of the attribute");
-      scene.attribute.resize(scene.clip.size());
-      for (float& value : scene.attribute) {
+      Stream& stream =
+          scene.streams.emplace_back(Stream{std::string(in_.wordInLine("name of the attribute")), 1, {}, true});
+      stream.values.resize(scene.clip.size());
+      for (float& value : stream.values) {
         needLine("the last value");
         value = fromBits("value");
       }
@@ -121,9 +122,9 @@ void writeReplay(const std::filesystem::path& path, const Scene& scene) {
   }
   fmt::format_to(out, "triangles {}\n", scene.triangles.size());
   for (const Triangle& t : scene.triangles) fmt::format_to(out, "{} {} {}\n", t[0], t[1], t[2]);
-  if (!scene.attribute.empty()) {
-    fmt::format_to(out, "attribute {}\n", scene.attributeName);
-    for (const float value : scene.attribute) fmt::format_to(out, "{:08x}\n", std::bit_cast<std::uint32_t>(value));
+  if (const Stream* stream = scene.attribute(); stream != nullptr && stream->components == 1) {
+    fmt::format_to(out, "attribute {}\n", stream->name);
+    for (const float value : stream->values) fmt::format_to(out, "{:08x}\n", std::bit_cast<std::uint32_t>(value));
   }
   fmt::format_to(out, "end\n");
   writeWhole(path, {text.data(), text.size()});

@@ -15,8 +15,8 @@ static_assert(sizeof(glm::vec3) == 12 && sizeof(glm::vec4) == 16 && sizeof(Trian
 class SceneHash {
  public:
   template <class T>
-  void add(std::span<const T> values) {
-    const std::uint64_t count = values.size();  // so that what stands on either side of a border matters
+  void add(std::span<const T> values, unsigned components = 1) {
+    const std::uint64_t count = values.size() / components;  // so that what stands on either side of a border matters
     hash_.add(&count, sizeof count);
     hash_.add(values.data(), values.size_bytes());
   }
@@ -35,11 +35,13 @@ std::string sceneHash(const Scene& scene) {
   if (scene.clip.empty()) hash.add(std::span<const float>(scene.clipFromObject));
   hash.add(std::span<const glm::vec3>(scene.positions));
   hash.add(std::span<const glm::vec4>(scene.clip));
-  hash.add(std::span<const glm::vec3>(scene.normals));
+  const Stream* const normals = scene.stream(kNormals);
+  hash.add(normals == nullptr ? std::span<const float>() : normals->values.span(), 3);
   hash.add(std::span<const Triangle>(scene.triangles));
-  if (!scene.attribute.empty()) {
-    hash.add(std::span<const char>(scene.attributeName));
-    hash.add(std::span<const float>(scene.attribute));
+  for (const Stream& stream : scene.streams) {
+    if (&stream == normals || stream.values.empty()) continue;
+    hash.add(std::span<const char>(stream.name));
+    hash.add(stream.values.span(), stream.components);
   }
   if (scene.origin != glm::dvec3(0)) hash.add(std::span<const double>(&scene.origin.x, 3));
   return hash.hex();

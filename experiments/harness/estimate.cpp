@@ -111,7 +111,7 @@ class Meter {
     Frame frame;
     times.first = secondsOf([&] { frame = rasterizer.render(scene, cell.asked); });
     times.frame = secondsOf([&] { rasterizer.render(scene, cell.asked, {.readBack = false}); });
-    if (!scene.attribute.empty())
+    if (scene.attribute() != nullptr)
       times.attribute = secondsOf([&] { reference::attributeError(scene, imageOf(frame.plan.resolved), frame.image); });
     return times;
   }

@@ -196,7 +196,7 @@ void JournalRules::checkSample(const Json& line, const Json& row) const {
   for (const auto& [stage, ns] : stages.items()) {
     checkSchema(ns, "/$defs/nanoseconds", "stages." + stage);
     if (!kernels.contains(stage)) failField("stages." + stage, &ns, "a stage for which the cell's row has a kernel");
-    if (stage != "shade" && stage != "attribute") sum += ns.get<double>();  // these come after the frame's time
+    if (!isBehindVisibility(stage)) sum += ns.get<double>();
   }
   // A device's own clock may let its stages overlap; there the whole is only no less than some time.
   const double least = row.value("clock", "") == "wall" ? sum : sum > 0 ? 1 : 0;

@@ -48,6 +48,14 @@ const AxisValue& axisValue(std::string_view axisName, std::string_view name) {
                         whatThereIs(name, namesOf(a.values, &AxisValue::name))));
 }
 
+const CommitTraits& commitTraits(std::string_view commit) {
+  return std::get<CommitTraits>(axisValue("commit", commit).traits);
+}
+
+const LoopBound& loopBound(std::string_view traversal) {
+  return std::get<LoopBound>(axisValue("traversal", traversal).traits);
+}
+
 Variant::Variant(std::initializer_list<std::pair<std::string_view, std::string_view>> settings) {
   for (const auto& [name, value] : settings) set(name, value);
 }
@@ -79,6 +87,19 @@ bool Variant::has(std::string_view name) const { return values_.contains(std::st
 std::string Variant::get(std::string_view name, std::string_view otherwise) const {
   const auto found = values_.find(std::string(name));
   return found == values_.end() ? std::string(otherwise) : found->second;
+}
+
+std::uint32_t Variant::number(std::string_view name) const {
+  const std::string text = get(name);
+  std::uint32_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size())
+    fail(fmt::format("axis {}: '{}' is not a number", name, text));
+  return value;
+}
+
+bool Variant::is(std::string_view name, std::string_view value) const {
+  return get(name) == axisValue(name, value).name;
 }
 
 std::string Variant::text() const {

@@ -128,7 +128,15 @@ std::string missingText(const CompareOptions& options, const Framebuffer& a, con
   };
   check("id and depth", !a.ids.empty(), !b.ids.empty());
   check("hits", !a.hits.empty(), !b.hits.empty());
-  check("values", !a.attribute.empty(), !b.attribute.empty());
+  const bool alone = a.channels.size() == 1 && b.channels.size() == 1;  // compared, whatever their names
+  std::set<std::string> names;
+  for (const Framebuffer* frame : {&a, &b})
+    for (const Channel& channel : frame->channels) names.insert(channel.name);
+  const bool several = a.channels.size() > 1 || b.channels.size() > 1;
+  for (const std::string& name : names)
+    if (!alone)
+      check((several ? "values " + name : std::string("values")).c_str(), a.channel(name) != nullptr,
+            b.channel(name) != nullptr);
   check("colour", !a.colour.empty(), !b.colour.empty());
   return text;
 }

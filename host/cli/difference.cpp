@@ -20,8 +20,14 @@ std::string pixelText(const NamedFrame& named, std::size_t at) {
   if (!frame.depth.empty())
     text += fmt::format(" depth {} (0x{:08x})", frame.depth[at], std::bit_cast<std::uint32_t>(frame.depth[at]));
   if (!frame.hits.empty()) text += fmt::format(" hits {}", frame.hits[at]);
-  if (!frame.attribute.empty())
-    text += fmt::format(" value {} (0x{:08x})", frame.attribute[at], std::bit_cast<std::uint32_t>(frame.attribute[at]));
+  for (const Channel& channel : frame.channels)
+    for (unsigned c = 0; c < channel.components; ++c)
+      std::visit(
+          [&](const auto& values) {
+            const auto value = values[at * channel.components + c];
+            text += fmt::format(" value {} (0x{:08x})", value, std::bit_cast<std::uint32_t>(value));
+          },
+          channel.data);
   if (!frame.colour.empty())
     text += fmt::format(" colour {} {} {}", frame.colour[at].r, frame.colour[at].g, frame.colour[at].b);
   return text;

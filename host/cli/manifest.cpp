@@ -13,62 +13,13 @@
 
 #include "host/build-info.h"
 #include "host/cli/recorder.h"
+#include "host/plan/buffers.h"
+#include "host/plan/stages.h"
 
 namespace tessera::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-/// Groups of a stage's dispatch, in fields of its uniform block.
-const std::map<std::string, std::string>& groupFormulas() {
-  static const std::string pixels = "ceil(width * (rowEnd - rowBegin) / 64)",
-                           work = "ceil((slotCount + itemCount) / 64)";
-  static const std::map<std::string, std::string> formulas{{"clear", pixels},
-                                                           {"transform", "ceil(vertexCount / 64)"},
-                                                           {"project", "ceil(vertexCount / 64)"},
-                                                           {"setup", "ceil(triangleCount / 64)"},
-                                                           {"payload", "ceil(triangleCount / 64)"},
-                                                           {"bin-count", work},
-                                                           {"scan-blocks", "ceil(scanCount / 1024)"},
-                                                           {"scan-add", "ceil(scanCount / 1024)"},
-                                                           {"bin-insert", work},
-                                                           {"raster-tiles", "tilesX * tilesY"},
-                                                           {"raster-items", work},
-                                                           {"resolve", pixels},
-                                                           {"shade", pixels},
-                                                           {"attribute", pixels}};
-  return formulas;
-}
-
-/// Bytes that a buffer needs at least, in fields of the block of a dispatch that uses it.
-const std::map<std::string, std::string>& sizeFormulas() {
-  static const std::string pixel = "4 * width * (rowEnd - rowBegin)";
-  static const std::map<std::string, std::string> formulas{{"positions", "12 * vertexCount"},
-                                                           {"normals", "12 * vertexCount"},
-                                                           {"attribute", "4 * vertexCount"},
-                                                           {"clipSpace", "16 * vertexCount"},
-                                                           {"corners", "16 * vertexCount"},
-                                                           {"triangles", "12 * triangleCount"},
-                                                           {"payloads", "4 * triangleCount"},
-                                                           {"pieces", "40 * (triangleCount + extraCapacity)"},
-                                                           {"items", "8 * itemCapacity"},
-                                                           {"tileCounts", "4 * tilesX * tilesY"},
-                                                           {"offsets", "4 * (tilesX * tilesY + 1)"},
-                                                           {"entries", "4 * entryCapacity"},
-                                                           {"masks", "4 * tilesX * tilesY * maskWords"},
-                                                           {"depth", pixel},
-                                                           {"ids", pixel},
-                                                           {"hits", pixel},
-                                                           {"values", pixel},
-                                                           {"locks", pixel},
-                                                           {"packed32", pixel},
-                                                           {"packed", "8 * width * (rowEnd - rowBegin)"},
-                                                           {"colour", "12 * width * (rowEnd - rowBegin)"},
-                                                           {"scanIn", "4 * scanCount"},
-                                                           {"scanOut", "4 * (scanCount + 1)"},
-                                                           {"scanSums", "4 * ceil(scanCount / 1024)"}};
-  return formulas;
-}
 
 // ---- what slangc says of a stage
 
@@ -134,11 +85,12 @@ bool isUsed(const Json& reflection, const std::string& name, const Json& inText,
   return true;
 }
 
-/// A queue's bins have a place each, and need no offsets until they run again at their counted sizes.
+/// Bytes that a buffer needs at least, as a formula. Null for a stream that is no buffer of the pipeline, and for the
+/// offsets of bins that have a place each, which are needed only where the bins run again at their counted sizes.
 Json sizeOf(const std::string& name, const Plan& plan) {
-  const auto formula = sizeFormulas().find(name);
-  if (formula == sizeFormulas().end() || (name == "offsets" && plan.resolved.get("binning") == "queue")) return nullptr;
-  return formula->second;
+  const BufferDoc* const doc = findBuffer(name);
+  if (doc == nullptr || name == "counters" || (name == "offsets" && !plan.runs("bin-count"))) return nullptr;
+  return fmt::format("{} * {}", doc->bytes, formula(doc->extent));
 }
 
 Json stageOf(const WrittenStage& written, const Plan& plan, const EmitTarget& target) {
@@ -175,7 +127,7 @@ Json stageOf(const WrittenStage& written, const Plan& plan, const EmitTarget& ta
           {"file", written.file},
           {"entryPoint", name},
           {"workgroupSize", entry.at("threadGroupSize")},
-          {"groups", groupFormulas().at(stage)},
+          {"groups", groupFormula(tessera::stageOf(stage))},
           {"uniforms", std::move(uniforms)},
           {"bindings", std::move(bindings)}};
 }
@@ -192,20 +144,16 @@ Variant recordedVariant(const Scene& scene, const Variant& asked, const Plan& pl
   return variant;
 }
 
+/// The channels of the frame: the buffer of each, or of each stream of it.
 Json outputs(const Recorder& recorder) {
-  struct Output {
-    const char *name, *type, *empty;
-  };
-  constexpr Output kOutputs[] = {{"ids", "u32", "4294967295"},
-                                 {"depth", "f32, as bits", "1.0"},
-                                 {"hits", "u32", "0"},
-                                 {"colour", "3 x f32, linear", "1.0"},
-                                 {"values", "f32, as bits", "NaN"}};
   Json list = Json::object();
-  for (const Output& output : kOutputs)
+  for (const BufferDoc& doc : tessera::buffers())
     for (const auto& buffer : recorder.buffers())
-      if (buffer.pipeline == output.name)  // the last of that name is the one in use
-        list[output.name] = {{"buffer", buffer.name}, {"type", output.type}, {"empty", output.empty}};
+      if (doc.channel && (buffer.pipeline == doc.name || buffer.pipeline.starts_with(doc.name + ' ')))
+        list[buffer.pipeline] = {// the last of that name is the one in use
+                                 {"buffer", buffer.name},
+                                 {"type", doc.channel->element},
+                                 {"empty", doc.channel->empty}};
   return list;
 }
 

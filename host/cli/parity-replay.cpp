@@ -77,7 +77,7 @@ std::vector<std::vector<std::uint32_t>> suspectsOf(const Pair& pair) {
 }  // namespace
 
 KernelFiles filesOfReplay(const Scene& replay, const Side& side, const KernelFiles& files) {
-  const std::vector<std::string> runs = stagesOf(makePlan(replay, withoutShade(side.variant), side.device.info()));
+  const std::vector<std::string> runs = makePlan(replay, withoutShade(side.variant), side.device.info()).stages;
   KernelFiles kept;
   for (const auto& [stage, file] : files)
     if (std::ranges::find(runs, stage) != runs.end()) kept.emplace(stage, file);

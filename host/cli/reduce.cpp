@@ -88,7 +88,7 @@ Scene withTriangles(const Scene& scene, const Triangles& triangles) {
   some.name = scene.name;
   some.width = scene.width;
   some.height = scene.height;
-  some.attributeName = scene.attributeName;
+  for (const Stream& stream : scene.streams) some.makeStream(stream.name, stream.components, stream.interpolated);
   std::map<std::uint32_t, std::uint32_t> vertices;  // of the scene -> of this one
   for (const std::uint32_t t : triangles) {
     Triangle corners = scene.triangles[t];
@@ -96,7 +96,9 @@ Scene withTriangles(const Scene& scene, const Triangles& triangles) {
       if (corner >= scene.clip.size()) continue;  // out of range stays out of range
       const auto [place, isNew] = vertices.try_emplace(corner, static_cast<std::uint32_t>(some.clip.size()));
       if (isNew) some.clip.push_back(scene.clip[corner]);
-      if (isNew && !scene.attribute.empty()) some.attribute.push_back(scene.attribute[corner]);
+      for (std::size_t s = 0; isNew && s < scene.streams.size(); ++s)
+        for (unsigned c = 0; c < scene.streams[s].components; ++c)
+          some.streams[s].values.push_back(scene.streams[s].values[corner * scene.streams[s].components + c]);
       corner = place->second;
     }
     some.triangles.push_back(corners);

@@ -22,13 +22,13 @@ std::string rangeText(const Axis& axis) { return fmt::format("{} to {}", axis.le
 
 /// The devices that can run it.
 std::string devicesText(const AxisValue& value) {
-  if (value.has(kNeedsCpu)) return "CPU";
+  if (value.needs.cpu) return "CPU";
   std::vector<std::string> needs;
-  if (value.has(kNeedsInt64)) needs.emplace_back("64-bit integers");
-  if (value.has(kNeedsFloat64)) needs.emplace_back("64-bit floats");
-  if (value.has(kNeedsAtomics64)) needs.emplace_back("64-bit atomics");
+  if (value.needs.int64) needs.emplace_back("64-bit integers");
+  if (value.needs.float64) needs.emplace_back("64-bit floats");
+  if (value.needs.atomicMin64) needs.emplace_back("64-bit atomics");
   const std::string with = needs.empty() ? "" : fmt::format(" with {}", fmt::join(needs, " and "));
-  return (value.has(kNeedsVulkan) ? "Vulkan" : "CPU, Vulkan") + with;
+  return (value.needs.vulkan ? "Vulkan" : "CPU, Vulkan") + with;
 }
 
 /// The rules about it: what it goes with.

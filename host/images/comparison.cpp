@@ -12,7 +12,7 @@
 namespace tessera {
 namespace {
 
-enum class Part { kNone, kCoverage, kId, kDepth, kHits, kAttribute, kColour };
+enum class Part { kNone, kCoverage, kId, kDepth, kHits, kChannel, kColour };
 
 // float32 numbers in order, -0 and +0 at 0: neighbours are 1 apart.
 std::int64_t stepOf(float value) {
@@ -41,13 +41,19 @@ class Pair {
         ids_(both(a.ids, b.ids)),
         depth_(both(a.depth, b.depth)),
         hits_(both(a.hits, b.hits)),
-        attribute_(both(a.attribute, b.attribute)),
         colour_(both(a.colour, b.colour)) {
+    // Two images that have one channel each may call it differently.
+    const bool alone = a.channels.size() == 1 && b.channels.size() == 1;
+    for (const Channel& channel : a.channels) {
+      const Channel* const other = alone ? b.channels.data() : b.channel(channel.name);
+      if (other != nullptr && other->components == channel.components && other->type() == channel.type())
+        channels_.push_back({channel, *other});
+    }
     if (a.width != b.width || a.height != b.height) {
       failUsage(fmt::format("the images are {} x {} and {} x {} pixels; they should have one size", a.width, a.height,
                             b.width, b.height));
     }
-    if (!ids_ && !depth_ && !hits_ && !attribute_ && !colour_)
+    if (!ids_ && !depth_ && !hits_ && channels_.empty() && !colour_)
       failUsage("the images have no channel in common: nothing to compare");
   }
 
@@ -56,7 +62,7 @@ class Pair {
   bool hasDepth() const { return depth_; }
   bool hasHits() const { return hits_; }
   bool hasColour() const { return colour_; }
-  bool hasAttribute() const { return attribute_; }
+  bool hasChannels() const { return !channels_.empty(); }
   bool idUnknown(std::size_t k) const {
     return ids_ && (a_.ids[k] == kUnknownTriangle || b_.ids[k] == kUnknownTriangle);
   }
@@ -70,8 +76,21 @@ class Pair {
     return !idUnknown(k) || coverageDiffers(k);
   }
   bool depthDiffers(std::size_t k) const { return depth_ && differ(a_.depth[k], b_.depth[k], tolerances_.depth); }
-  bool attributeDiffers(std::size_t k) const {
-    return attribute_ && differ(a_.attribute[k], b_.attribute[k], tolerances_.attribute);
+  /// Calls use(x, y) for each pair of float32 values of a pixel.
+  template <typename Use>
+  void eachValue(std::size_t k, Use use) const {
+    for (const auto& [a, b] : channels_)
+      if (a.type() == ChannelType::kFloat32)
+        for (std::size_t i = k * a.components; i < (k + 1) * a.components; ++i) use(a.floats()[i], b.floats()[i]);
+  }
+  bool channelsDiffer(std::size_t k) const {
+    bool any = false;
+    eachValue(k, [&](float x, float y) { any |= differ(x, y, tolerances_.attribute); });
+    for (const auto& [a, b] : channels_)
+      if (a.type() == ChannelType::kUint32)
+        for (std::size_t i = k * a.components; i < (k + 1) * a.components; ++i)
+          any |= std::get<1>(a.data)[i] != std::get<1>(b.data)[i];
+    return any;
   }
   bool hitsDiffer(std::size_t k) const { return hits_ && a_.hits[k] != b_.hits[k]; }
   bool colourDiffers(std::size_t k) const {
@@ -83,13 +102,13 @@ class Pair {
 
   /// The most telling difference of a pixel.
   Part part(std::size_t k) const {
-    return coverageDiffers(k)    ? Part::kCoverage
-           : idDiffers(k)        ? Part::kId
-           : depthDiffers(k)     ? Part::kDepth
-           : hitsDiffer(k)       ? Part::kHits
-           : attributeDiffers(k) ? Part::kAttribute
-           : colourDiffers(k)    ? Part::kColour
-                                 : Part::kNone;
+    return coverageDiffers(k)  ? Part::kCoverage
+           : idDiffers(k)      ? Part::kId
+           : depthDiffers(k)   ? Part::kDepth
+           : hitsDiffer(k)     ? Part::kHits
+           : channelsDiffer(k) ? Part::kChannel
+           : colourDiffers(k)  ? Part::kColour
+                               : Part::kNone;
   }
 
  private:
@@ -99,7 +118,11 @@ class Pair {
   }
   const Framebuffer &a_, &b_;
   const Tolerances& tolerances_;
-  bool ids_, depth_, hits_, attribute_, colour_;
+  bool ids_, depth_, hits_, colour_;
+  struct Both {
+    const Channel &a, &b;
+  };
+  std::vector<Both> channels_;  // of one name and one kind
 };
 
 double squaredDistance(const glm::vec3& a, const glm::vec3& b) {
@@ -120,7 +143,15 @@ Framebuffer onePixel(const Framebuffer& frame, std::size_t k) {
   take(pixel.ids, frame.ids);
   take(pixel.hits, frame.hits);
   take(pixel.colour, frame.colour);
-  take(pixel.attribute, frame.attribute);
+  for (const Channel& from : frame.channels) {
+    Channel& to = pixel.makeChannel(from.name, from.type(), from.components);
+    std::visit(
+        [&]<typename T>(const std::vector<T>& values) {
+          const auto first = values.begin() + static_cast<std::ptrdiff_t>(k * from.components);
+          to.data = std::vector<T>(first, first + from.components);
+        },
+        from.data);
+  }
   return pixel;
 }
 
@@ -140,7 +171,7 @@ struct Comparison::State {
   Difference sums;  // of what any rows held
   bool idsKnown = true;
   double squares = 0, attributeSquares = 0;
-  std::uint64_t values = 0;  // pixels that have one in both
+  std::uint64_t values = 0;  // of channels, that both have
   std::uint32_t rows = 0;
   Framebuffer firstA, firstB;
 
@@ -152,12 +183,13 @@ struct Comparison::State {
           std::max(*sums.depthMaxAbs, std::isnan(distance) ? std::numeric_limits<double>::infinity() : distance);
       sums.depthMaxUlp = std::max(*sums.depthMaxUlp, stepsApart(a.depth[k], b.depth[k]));
     }
-    if (pair.hasAttribute() && !std::isnan(a.attribute[k]) && !std::isnan(b.attribute[k])) {
-      const double distance = apart(a.attribute[k], b.attribute[k]);
+    pair.eachValue(k, [this](float x, float y) {
+      if (std::isnan(x) || std::isnan(y)) return;
+      const double distance = apart(x, y);
       sums.attributeMax = std::max(*sums.attributeMax, distance);
       attributeSquares += distance * distance;
       ++values;
-    }
+    });
     if (pair.hasColour() && std::memcmp(&a.colour[k], &b.colour[k], sizeof(glm::vec3)) != 0) {
       squares += squaredDistance(a.colour[k], b.colour[k]);
       for (int c = 0; c < 3; ++c) {
@@ -175,10 +207,10 @@ struct Comparison::State {
     sums.id = count(pair.hasIds());
     sums.depth = count(pair.hasDepth());
     sums.hits = count(pair.hasHits());
-    sums.attribute = count(pair.hasAttribute());
+    sums.attribute = count(pair.hasChannels());
     sums.colour = count(pair.hasColour());
     sums.depthMaxAbs = sums.depthMaxUlp = most(pair.hasDepth());
-    sums.attributeMax = sums.attributeRms = most(pair.hasAttribute());
+    sums.attributeMax = sums.attributeRms = most(pair.hasChannels());
     sums.colourMax = sums.psnr = most(pair.hasColour());
   }
 };
@@ -206,7 +238,7 @@ void Comparison::add(const Framebuffer& a, const Framebuffer& b) {
     add(s.sums.id, pair.idDiffers(k));
     add(s.sums.depth, pair.depthDiffers(k));
     add(s.sums.hits, pair.hitsDiffer(k));
-    add(s.sums.attribute, pair.attributeDiffers(k));
+    add(s.sums.attribute, pair.channelsDiffer(k));
     add(s.sums.colour, pair.colourDiffers(k));
     if (s.sums.anywhere++ != 0) continue;
     s.sums.firstX = static_cast<std::int64_t>(k % a.width);
@@ -257,7 +289,7 @@ void paintDifference(const Framebuffer& a, const Framebuffer& b, std::uint32_t b
         *out++ = yellow;
         break;
       case Part::kHits:
-      case Part::kAttribute:
+      case Part::kChannel:
       case Part::kColour:
         *out++ = purple;
         break;

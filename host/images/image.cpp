@@ -28,32 +28,50 @@ std::string extensionOf(const fs::path& path) {
   return extension;
 }
 
-// A channel of an .exr and where its values lie in a framebuffer. All are 4 bytes wide.
-constexpr std::size_t kChannelBytes = 4;
+constexpr std::size_t kValueBytes = 4;  // of every channel
 constexpr std::size_t kBandBytes = std::size_t{16} << 20;
 constexpr std::uint32_t kRowsOfChunk = 16;  // that zip packs together
+constexpr std::string_view kLayer = "values.";
+
+// A channel of an .exr and where its values lie in a framebuffer.
 template <typename Byte>
-struct Channel {
-  const char *name, *type;
+struct FileChannel {
+  std::string name;
+  const char* type;
   Byte* data;          ///< of pixel 0
   std::size_t stride;  ///< bytes from pixel to pixel
 };
 
+// Whether the framebuffer's further channels are one of one float, which the file calls A.
+bool isAlone(const std::vector<Channel>& channels) {
+  return channels.size() == 1 && channels[0].components == 1 && channels[0].type() == ChannelType::kFloat32;
+}
+
 template <typename Frame>
 auto channelsOf(Frame& frame) {
   using Byte = std::conditional_t<std::is_const_v<Frame>, const std::byte, std::byte>;
-  std::vector<Channel<Byte>> channels;
-  const auto add = [&](const char* name, const char* type, auto& values, std::size_t offset) {
-    if (values.empty()) return;
-    channels.push_back({name, type, reinterpret_cast<Byte*>(values.data()) + offset, sizeof(values[0])});
+  std::vector<FileChannel<Byte>> channels;
+  const auto add = [&](std::string name, const char* type, auto& values, std::size_t offset, std::size_t stride) {
+    if (!values.empty())
+      channels.push_back({std::move(name), type, reinterpret_cast<Byte*>(values.data()) + offset, stride});
   };
-  add("R", "float", frame.colour, 0);
-  add("G", "float", frame.colour, 4);
-  add("B", "float", frame.colour, 8);
-  add("Z", "float", frame.depth, 0);
-  add("A", "float", frame.attribute, 0);
-  add("id", "uint", frame.ids, 0);
-  add("hits", "uint", frame.hits, 0);
+  add("R", "float", frame.colour, 0, 12);
+  add("G", "float", frame.colour, 4, 12);
+  add("B", "float", frame.colour, 8, 12);
+  add("Z", "float", frame.depth, 0, kValueBytes);
+  for (auto& channel : frame.channels)
+    std::visit(
+        [&](auto& values) {
+          const char* const type = channel.type() == ChannelType::kFloat32 ? "float" : "uint";
+          for (unsigned c = 0; c < channel.components; ++c) {
+            const std::string part = channel.components == 1 ? "" : std::string(".") + "xyzw"[c];
+            add(isAlone(frame.channels) ? "A" : std::string(kLayer) + channel.name + part, type, values,
+                kValueBytes * c, kValueBytes * channel.components);
+          }
+        },
+        channel.data);
+  add("id", "uint", frame.ids, 0, kValueBytes);
+  add("hits", "uint", frame.hits, 0, kValueBytes);
   return channels;
 }
 
@@ -116,12 +134,12 @@ void ImageOutput::write(const Framebuffer& frame, const std::optional<ValueRange
     return;
   }
   imageio::Header header{frame.width, frame.height, {}, facts};
-  for (const auto& channel : channels) header.channels.push_back({channel.name, channel.type, kChannelBytes});
+  for (const auto& channel : channels) header.channels.push_back({channel.name, channel.type, kValueBytes});
   state_->write(header, [&](std::uint32_t begin, std::uint32_t end, std::byte* out) {
     for (std::size_t k = std::size_t{begin} * frame.width; k < std::size_t{end} * frame.width; ++k) {
       for (const auto& channel : channels) {
-        std::memcpy(out, channel.data + k * channel.stride, kChannelBytes);
-        out += kChannelBytes;
+        std::memcpy(out, channel.data + k * channel.stride, kValueBytes);
+        out += kValueBytes;
       }
     }
   });
@@ -142,7 +160,7 @@ void ImageOutput::write(std::uint32_t width, std::uint32_t height, const ColourR
     return;
   }
   imageio::Header header{width, height, {}, facts};
-  for (const char* name : {"R", "G", "B"}) header.channels.push_back({name, "float", kChannelBytes});
+  for (const char* name : {"R", "G", "B"}) header.channels.push_back({name, "float", kValueBytes});
   state_->write(header, [&](std::uint32_t begin, std::uint32_t end, std::byte* out) {
     make(begin, end);
     std::memcpy(out, colours.data(), colours.size() * sizeof(glm::vec3));
@@ -159,8 +177,11 @@ struct ImageReader::State {
   std::unique_ptr<imageio::Reader> file;
   std::vector<std::byte> rows;
   std::size_t pixelBytes = 0;
-  bool ids = false, depth = false, hits = false, attribute = false, colour = false;
+  bool ids = false, depth = false, hits = false, colour = false;
+  std::vector<Channel> channels;  // without values
 
+  // Those of the file beside ids, depth, hits and colour.
+  std::vector<Channel> furtherChannels() const;
   // Where a channel lies in a pixel.
   std::size_t offsetOf(std::string_view channel) const {
     std::size_t offset = 0;
@@ -171,7 +192,7 @@ struct ImageReader::State {
     return offset;
   }
   // Whether the file has the channel. Throws if it has another type.
-  bool has(const char* channel, std::string_view type) const {
+  bool has(std::string_view channel, std::string_view type) const {
     for (const auto& c : file->header().channels) {
       if (c.name != channel) continue;
       if (c.type != type) failUsage(fmt::format("{}: channel {} is {}, it should be {}", name, channel, c.type, type));
@@ -180,6 +201,29 @@ struct ImageReader::State {
     return false;
   }
 };
+
+std::vector<Channel> ImageReader::State::furtherChannels() const {
+  const auto named = [this](const std::string& name) {
+    return std::ranges::any_of(file->header().channels, [&](const auto& c) { return c.name == name; });
+  };
+  const auto text = std::ranges::find(file->header().text, "attribute", [](const auto& fact) { return fact.first; });
+  if (has("A", "float")) return {{text == file->header().text.end() ? "A" : text->second, 1, {}}};
+  Framebuffer made;
+  for (const auto& c : file->header().channels) {
+    if (!c.name.starts_with(kLayer)) continue;
+    std::string name = c.name.substr(kLayer.size());
+    unsigned components = 1;
+    // The x of NAME.x, NAME.y ... stands for them all.
+    const std::string stem = name.substr(0, name.size() - std::min<std::size_t>(name.size(), 2));
+    const auto part = [&](char letter) { return std::string(kLayer) + stem + '.' + letter; };
+    if (named(part('x')) && named(part('y'))) {
+      if (c.name != part('x') && std::string_view("yzw").find(name.back()) != std::string_view::npos) continue;
+      if (c.name == part('x')) name = stem, components = named(part('w')) ? 4 : named(part('z')) ? 3 : 2;
+    }
+    made.makeChannel(name, c.type == "uint" ? ChannelType::kUint32 : ChannelType::kFloat32, components);
+  }
+  return made.channels;
+}
 
 ImageReader::ImageReader(const fs::path& path, std::uint64_t limit) : state_(std::make_unique<State>()) {
   State& s = *state_;
@@ -194,7 +238,7 @@ ImageReader::ImageReader(const fs::path& path, std::uint64_t limit) : state_(std
   s.ids = s.has("id", "uint");
   s.depth = s.has("Z", "float");
   s.hits = s.has("hits", "uint");
-  s.attribute = s.has("A", "float");
+  s.channels = s.furtherChannels();
   const bool red = s.has("R", "float"), green = s.has("G", "float"), blue = s.has("B", "float");
   s.colour = red && green && blue;
   if ((!s.ids || !s.depth) && !s.hits) {
@@ -225,12 +269,14 @@ void ImageReader::read(std::uint32_t begin, std::uint32_t end, Framebuffer& band
   band.ids.resize(s.ids ? band.pixels() : 0);
   band.depth.resize(s.depth ? band.pixels() : 0);
   band.hits.resize(s.hits ? band.pixels() : 0);
-  band.attribute.resize(s.attribute ? band.pixels() : 0);
+  band.channels = s.channels;
+  for (Channel& c : band.channels)
+    std::visit([&](auto& values) { values.resize(c.components * band.pixels()); }, c.data);
   band.colour.resize(s.colour ? band.pixels() : 0);
   for (const auto& channel : channelsOf(band)) {
     const std::byte* from = s.rows.data() + s.offsetOf(channel.name);
     for (std::size_t k = 0; k < band.pixels(); ++k, from += s.pixelBytes)
-      std::memcpy(channel.data + k * channel.stride, from, kChannelBytes);
+      std::memcpy(channel.data + k * channel.stride, from, kValueBytes);
   }
 }
 
@@ -248,7 +294,12 @@ Framebuffer readImage(const fs::path& path, std::uint64_t limit) {
     add(frame.ids, band.ids);
     add(frame.depth, band.depth);
     add(frame.hits, band.hits);
-    add(frame.attribute, band.attribute);
+    for (const Channel& from : band.channels)
+      std::visit(
+          [&]<typename T>(const std::vector<T>& values) {
+            add(std::get<std::vector<T>>(frame.makeChannel(from.name, from.type(), from.components).data), values);
+          },
+          from.data);
     add(frame.colour, band.colour);
   }
   return frame;

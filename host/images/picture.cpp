@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 namespace tessera {
 namespace {
@@ -36,14 +37,14 @@ std::uint8_t* put(const glm::vec3& linear, bool drawn, std::uint8_t* out) {
   return out;
 }
 
-Picture valueMap(const std::vector<float>& values, std::optional<ValueRange> range) {
+Picture valueMap(std::span<const float> values, std::optional<ValueRange> range) {
   if (!range) {
     range.emplace(ValueRange{std::numeric_limits<float>::max(), std::numeric_limits<float>::lowest()});
     for (const float value : values)
       if (!std::isnan(value)) range->least = std::min(range->least, value), range->most = std::max(range->most, value);
   }
   const double least = range->least, span = range->most - least;  // may be negative: the map is turned round
-  return {4, [&values, least, span](std::size_t first, std::size_t last, std::uint8_t* out) {
+  return {4, [values, least, span](std::size_t first, std::size_t last, std::uint8_t* out) {
             for (std::size_t k = first; k < last; ++k) {
               const double part = span != 0 ? (values[k] - least) / span : 0.5;
               const bool drawn = !std::isnan(values[k]);
@@ -94,7 +95,7 @@ Picture makePicture(const Framebuffer& frame, const std::optional<ValueRange>& r
               for (std::size_t k = first; k < last; ++k) out = putSrgb(frame.colour[k], out);
             }};
   }
-  if (!frame.attribute.empty()) return valueMap(frame.attribute, range);
+  if (!frame.values().empty()) return valueMap(frame.values(), range);
   if (!frame.hits.empty()) return heatMap(frame.hits);
   if (!frame.depth.empty()) return greyDepth(frame);
   return {};

@@ -44,7 +44,11 @@ ImageFacts factsOf(const Run& run) {
   }
   // In the order of their names, as they are read.
   if (!approximate.empty()) facts.emplace_back("approximate", fmt::format("{}", fmt::join(approximate, " ")));
-  if (!scene.attribute.empty()) facts.emplace_back("attribute", scene.attributeName);
+  if (const auto streams = interpolatedStreams(scene); !streams.empty()) {
+    std::vector<std::string> names;
+    for (const Stream* stream : streams) names.push_back(stream->name);
+    facts.emplace_back("attribute", fmt::format("{}", fmt::join(names, " ")));
+  }
   if (!scene.positions.empty()) facts.emplace_back("camera", cameraText(scene));
   facts.emplace_back("image", fmt::format("{}", fmt::join(image, " ")));
   if (!run.kernelFiles.empty()) {
@@ -54,7 +58,7 @@ ImageFacts factsOf(const Run& run) {
   }
   if (scene.origin != glm::dvec3(0))
     facts.emplace_back("origin", fmt::format("{} {} {}", scene.origin.x, scene.origin.y, scene.origin.z));
-  if (!scene.attribute.empty() && run.attributeRange)
+  if (scene.attribute() != nullptr && run.attributeRange)
     facts.emplace_back("range", fmt::format("{} {}", run.attributeRange->least, run.attributeRange->most));
   facts.emplace_back("raster", fmt::format("{} x {}", scene.width, scene.height));
   facts.emplace_back("scene", sceneHash(scene));

@@ -84,13 +84,13 @@ void measureError(Run& run, const Framebuffer& image) {
   if (!image.hits.empty())
     run.hitCountNotOne =
         static_cast<std::uint64_t>(std::ranges::count_if(image.hits, [](std::uint32_t hits) { return hits > 1; }));
-  if (!image.attribute.empty()) run.attributeError = reference::attributeError(*run.scene, imageOf(run.variant), image);
+  if (!image.channels.empty()) run.attributeError = reference::attributeError(*run.scene, imageOf(run.variant), image);
 }
 
 std::string frameLabel(const Run& run) {
   std::vector<std::string> after;
   if (run.variant.get("shade", "none") != "none") after.push_back("shade");
-  if (!run.scene->attribute.empty()) after.push_back("attribute");
+  if (run.scene->attribute() != nullptr) after.push_back("attribute");
   return after.empty() ? "frame" : fmt::format("frame without {}", fmt::join(after, ", "));
 }
 

@@ -20,7 +20,7 @@ Framebuffer Oracle::expected(const Framebuffer& frame) const {
   if (!frame.ids.empty()) image.ids = image_.ids;
   if (!frame.hits.empty()) image.hits = image_.hits;
   if (!frame.colour.empty()) image.colour = image_.colour;
-  if (!frame.attribute.empty()) image.attribute = image_.attribute;
+  if (!frame.channels.empty()) image.channels = image_.channels;
   return image;
 }
 

@@ -35,14 +35,14 @@ std::string oracleLine(const Run& run) {
 ValueRange rangeOf(const Run& run) {
   if (run.attributeRange) return *run.attributeRange;
   ValueRange range{INFINITY, -INFINITY};
-  for (const float value : run.scene->attribute)
+  for (const float value : run.scene->attribute()->values)
     if (std::isfinite(value)) range = {std::min(range.least, value), std::max(range.most, value)};
   return range;
 }
 
 std::string attributeLine(const Run& run) {
   const reference::AttributeError& error = *run.attributeError;
-  const std::string& name = run.scene->attributeName;
+  const std::string& name = run.scene->attribute()->name;
   if (error.pixels == 0) return fmt::format("attribute {}: no pixel has a value\n", name);
   const ValueRange range = rangeOf(run);
   const double span = std::abs(double{range.most} - range.least);

@@ -49,7 +49,7 @@ Json sceneJson(const Run& run) {
                {"size", {scene.width, scene.height}}};
   if (scene.origin != glm::dvec3(0)) json["origin"] = {scene.origin.x, scene.origin.y, scene.origin.z};
   if (!scene.notes.empty()) json["notes"] = scene.notes;
-  if (!scene.attribute.empty()) json["attribute"] = {{"name", scene.attributeName}};
+  if (const Stream* stream = scene.attribute()) json["attribute"] = {{"name", stream->name}};
   if (run.attributeRange) json["attribute"]["range"] = {run.attributeRange->least, run.attributeRange->most};
   return json;
 }

@@ -20,17 +20,14 @@ const float kNoValue = std::bit_cast<float>(0x7fc00000u);
 template <typename T>
 using Three = std::array<T, 3>;
 
-// The values of one triangle.
-class Values {
+// Where one triangle lies, and from that the weights of its vertices at a pixel.
+class Weights {
  public:
-  Values(const Scene& scene, const Image& image, const std::vector<glm::vec4>& vertices, std::uint32_t id)
+  Weights(const Scene& scene, const Image& image, const std::vector<glm::vec4>& vertices, std::uint32_t id)
       : halfWidth_(static_cast<float>(scene.width) / 2), halfHeight_(static_cast<float>(scene.height) / 2) {
     for (int k = 0; k < 3; ++k) {
-      const std::uint32_t vertex = scene.triangles[id][k];
-      value_[k] = scene.attribute[vertex];
-      clip_[k] = vertices[vertex];
+      clip_[k] = vertices[scene.triangles[id][k]];
     }
-    finite_ = std::ranges::all_of(value_, [](float a) { return std::isfinite(a); });
     const bool oneW = clip_[0].w == clip_[1].w && clip_[0].w == clip_[2].w;
     if (!oneW || clip(clip_, scene.width, scene.height).outsideSome) return;
     linear_.emplace(Piece{id, {}, {}, {}});
@@ -41,20 +38,10 @@ class Values {
     }
   }
 
-  bool finite() const { return finite_; }
-
-  float at(std::int64_t i, std::int64_t j) const {
-    if (!finite_) return kNoValue;
-    const Three<float> w = linear_ ? onScreen(i, j) : homogeneous(i, j);
-    const float a = (w[0] * value_[0] + w[1] * value_[1]) + w[2] * value_[2];
-    const float least = *std::ranges::min_element(value_), most = *std::ranges::max_element(value_);
-    const float atLeast = a > least ? a : least;
-    return atLeast < most ? atLeast : most;
-  }
-
-  Exact exactAt(std::int64_t i, std::int64_t j) const {
-    const Three<Exact> w = linear_ ? exactOnScreen(i, j) : exactHomogeneous(i, j);
-    return (w[0] * value_[0] + w[1] * value_[1] + w[2] * value_[2]) / (w[0] + w[1] + w[2]);
+  Three<float> at(std::int64_t i, std::int64_t j) const { return linear_ ? onScreen(i, j) : homogeneous(i, j); }
+  /// Not yet divided by their sum.
+  Three<Exact> exactAt(std::int64_t i, std::int64_t j) const {
+    return linear_ ? exactOnScreen(i, j) : exactHomogeneous(i, j);
   }
 
  private:
@@ -108,46 +95,90 @@ class Values {
   Three<Exact> exactHomogeneous(std::int64_t i, std::int64_t j) const { return weights<Exact>(i, j); }
 
   float halfWidth_, halfHeight_;
-  Three<float> value_{};
   std::array<glm::vec4, 3> clip_{};
-  bool finite_ = true;
   std::optional<Piece> linear_;  // snapped, as its vertices come; nothing where weights are homogeneous
 };
 
-// Calls use(k, values, i, j) for each covered pixel k = (i, j).
+// One float of a stream at the vertices of a triangle.
+Three<float> valuesOf(const Scene& scene, const Stream& stream, unsigned component, std::uint32_t id) {
+  Three<float> values;
+  for (int k = 0; k < 3; ++k)
+    values[k] = stream.values[std::size_t{stream.components} * scene.triangles[id][k] + component];
+  return values;
+}
+
+bool areFinite(const Three<float>& values) {
+  return std::ranges::all_of(values, [](float a) { return std::isfinite(a); });
+}
+
+float weighed(const Three<float>& w, const Three<float>& value) {
+  if (!areFinite(value)) return kNoValue;
+  const float a = (w[0] * value[0] + w[1] * value[1]) + w[2] * value[2];
+  const float least = *std::ranges::min_element(value), most = *std::ranges::max_element(value);
+  const float atLeast = a > least ? a : least;
+  return atLeast < most ? atLeast : most;
+}
+
+Exact exactlyWeighed(const Three<Exact>& w, const Three<float>& value) {
+  return (w[0] * value[0] + w[1] * value[1] + w[2] * value[2]) / (w[0] + w[1] + w[2]);
+}
+
+// Calls use(k, id, weights, i, j) for each covered pixel k = (i, j).
 template <typename Use>
 void eachPixel(const Scene& scene, const Image& image, const Framebuffer& frame, Use use) {
   const std::vector<glm::vec4> vertices = transform(scene);
-  std::optional<Values> values;
+  std::optional<Weights> weights;
   std::uint32_t id = kNoTriangle;
   for (std::size_t k = 0; k < frame.ids.size(); ++k) {
     if (frame.ids[k] >= scene.triangles.size()) continue;
-    if (frame.ids[k] != id) values.emplace(scene, image, vertices, id = frame.ids[k]);
-    use(k, *values, static_cast<std::int64_t>(k % frame.width), static_cast<std::int64_t>(k / frame.width));
+    if (frame.ids[k] != id) weights.emplace(scene, image, vertices, id = frame.ids[k]);
+    use(k, id, *weights, static_cast<std::int64_t>(k % frame.width), static_cast<std::int64_t>(k / frame.width));
   }
 }
 
 }  // namespace
 
 void interpolate(const Scene& scene, const Image& image, Framebuffer& frame) {
-  frame.attribute.assign(frame.ids.size(), kNoValue);
-  eachPixel(scene, image, frame, [&](std::size_t k, const Values& values, std::int64_t i, std::int64_t j) {
-    frame.attribute[k] = values.at(i, j);
-  });
+  frame.channels.clear();
+  for (const Stream* stream : interpolatedStreams(scene))
+    frame.makeChannel(stream->name, ChannelType::kFloat32, stream->components)
+        .floats()
+        .assign(frame.ids.size() * stream->components, kNoValue);
+  eachPixel(scene, image, frame,
+            [&](std::size_t k, std::uint32_t id, const Weights& weights, std::int64_t i, std::int64_t j) {
+              const Three<float> w = weights.at(i, j);
+              std::size_t at = 0;
+              for (const Stream* stream : interpolatedStreams(scene)) {
+                std::vector<float>& values = frame.channels[at++].floats();
+                for (unsigned c = 0; c < stream->components; ++c)
+                  values[k * stream->components + c] = weighed(w, valuesOf(scene, *stream, c, id));
+              }
+            });
 }
 
 AttributeError attributeError(const Scene& scene, const Image& image, const Framebuffer& frame) {
   AttributeError error;
   double squares = 0;
-  eachPixel(scene, image, frame, [&](std::size_t k, const Values& values, std::int64_t i, std::int64_t j) {
-    if (!values.finite()) return;
-    double apart = std::abs(static_cast<double>(static_cast<Exact>(frame.attribute[k]) - values.exactAt(i, j)));
-    if (std::isnan(apart)) apart = std::numeric_limits<double>::infinity();
-    error.max = std::max(error.max, apart);
-    squares += apart * apart;
-    ++error.pixels;
-  });
-  if (error.pixels != 0) error.rms = std::sqrt(squares / static_cast<double>(error.pixels));
+  std::uint64_t count = 0;
+  eachPixel(scene, image, frame,
+            [&](std::size_t k, std::uint32_t id, const Weights& weights, std::int64_t i, std::int64_t j) {
+              const Three<Exact> w = weights.exactAt(i, j);
+              bool measured = false;
+              for (const Stream* stream : interpolatedStreams(scene))
+                for (unsigned c = 0; c < stream->components; ++c) {
+                  const Three<float> vertex = valuesOf(scene, *stream, c, id);
+                  if (!areFinite(vertex)) continue;
+                  const float value = frame.channel(stream->name)->floats()[k * stream->components + c];
+                  double apart = std::abs(static_cast<double>(static_cast<Exact>(value) - exactlyWeighed(w, vertex)));
+                  if (std::isnan(apart)) apart = std::numeric_limits<double>::infinity();
+                  error.max = std::max(error.max, apart);
+                  squares += apart * apart;
+                  ++count;
+                  measured = true;
+                }
+              error.pixels += measured;
+            });
+  if (count != 0) error.rms = std::sqrt(squares / static_cast<double>(count));
   return error;
 }
 

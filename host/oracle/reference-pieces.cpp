@@ -75,7 +75,7 @@ std::optional<Snapped> project(const glm::vec4& v, const Scene& scene, const Ima
 }
 
 std::vector<glm::vec4> transform(const Scene& scene) {
-  if (scene.positions.empty()) return scene.clip;
+  if (scene.positions.empty()) return {scene.clip.begin(), scene.clip.end()};
   const Matrix& m = scene.clipFromObject;
   std::vector<glm::vec4> clip;
   clip.reserve(scene.positions.size());

@@ -100,7 +100,7 @@ Result render(const Scene& scene, const Image& image, bool measureDepth) {
     }
   }
   if (measureDepth) measure(result, all, winner);
-  if (!scene.attribute.empty()) interpolate(scene, image, frame);
+  if (scene.attribute() != nullptr) interpolate(scene, image, frame);
   return result;
 }
 

@@ -8,13 +8,14 @@
 
 namespace tessera {
 
-std::optional<std::string> missingFeature(const AxisValue& value, const DeviceInfo& device) {
-  if (value.has(kNeedsCpu) && device.api != "cpu")
+std::optional<std::string> missingNeed(const AxisValue& value, const DeviceInfo& device) {
+  const Needs& needs = value.needs;
+  if (needs.cpu && device.api != "cpu")
     return value.limits.empty() ? "it is for the CPU device" : "it is for the CPU device: " + value.limits;
-  if (value.has(kNeedsVulkan) && device.api != "vulkan") return "it is for Vulkan devices";
-  if (value.has(kNeedsFloat64) && !device.float64) return device.name + " has no 64-bit floats (shaderFloat64)";
-  if (value.has(kNeedsInt64) && !device.int64) return device.name + " has no 64-bit integers (shaderInt64)";
-  if (value.has(kNeedsAtomics64) && !device.atomicMin64)
+  if (needs.vulkan && device.api != "vulkan") return "it is for Vulkan devices";
+  if (needs.float64 && !device.float64) return device.name + " has no 64-bit floats (shaderFloat64)";
+  if (needs.int64 && !device.int64) return device.name + " has no 64-bit integers (shaderInt64)";
+  if (needs.atomicMin64 && !device.atomicMin64)
     return device.name + " has no 64-bit atomic min on buffers (shaderBufferInt64Atomics)";
   return std::nullopt;
 }
@@ -47,7 +48,7 @@ const AxisRule* Choice::broken(const std::string& axis, const std::string& value
 }
 
 bool Choice::fits(const Axis& axis, const std::string& value) const {
-  if (!axis.values.empty() && missingFeature(axisValue(axis.name, value), device_)) return false;
+  if (!axis.values.empty() && missingNeed(axisValue(axis.name, value), device_)) return false;
   return broken(axis.name, value) == nullptr;
 }
 
@@ -65,7 +66,7 @@ std::string Choice::take(std::string_view name, const std::vector<std::string>& 
     value = fit == preferred.end() ? preferred.front() : *fit;  // a rule that none keeps is named below
   }
   if (!a.values.empty())
-    if (const auto missing = missingFeature(axisValue(a.name, value), device_)) {
+    if (const auto missing = missingNeed(axisValue(a.name, value), device_)) {
       std::vector<std::string> others;  // of its kind: what would give the image that was asked for
       for (const AxisValue& other : a.values)
         if (other.kind == axisValue(a.name, value).kind && fits(a, other.name)) others.push_back(other.name);

@@ -11,8 +11,8 @@
 
 namespace tessera {
 
-/// What of the features that a value needs the device lacks, in words; nothing if it has them all.
-std::optional<std::string> missingFeature(const AxisValue& value, const DeviceInfo& device);
+/// What of the value's needs the device lacks, in words; nothing if it has them all.
+std::optional<std::string> missingNeed(const AxisValue& value, const DeviceInfo& device);
 
 /// A resolved variant without what says nothing beside the rest, such as a capacity where there are no queues, and what
 /// is therefore refused when it is set. With what is left set, the plan is the same.

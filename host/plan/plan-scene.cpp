@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 
 namespace tessera {
 namespace {
@@ -14,7 +15,7 @@ struct Bounds {
 };
 
 /// Of the finite positions: the others are dropped in setup.
-Bounds boundsOf(const std::vector<glm::vec3>& positions) {
+Bounds boundsOf(std::span<const glm::vec3> positions) {
   Bounds b;
   b.low.fill(std::numeric_limits<double>::infinity());
   b.high.fill(-std::numeric_limits<double>::infinity());

@@ -5,59 +5,65 @@
 #include <tessera/error.h>
 
 #include <algorithm>
-#include <stdexcept>
 
 #include "host/kernels/user-kernel.h"
+#include "host/plan/needs.h"
+#include "host/support/suggest.h"
 
 namespace tessera {
+namespace {
+
+constexpr std::uint32_t kLanes = 64;  // slang's workgroup has the same
+constexpr bool kGroupEach = true, kLaneEach = false;
+
+}  // namespace
 
 const std::vector<Stage>& stages() {
+  using enum Moment;
+  using enum Extent;
   static const std::vector<Stage> list{
-      {"clear", "rasterizer/clear.slang", "clear"},
-      {"transform", "rasterizer/transform.slang", "transform"},
-      {"project", "rasterizer/transform.slang", "project"},
-      {"setup", "rasterizer/setup.slang", "setup"},
-      {"payload", "rasterizer/payload.slang", "colourTriangles"},
-      {"bin-count", "rasterizer/bin-count.slang", "binCount"},
-      {"scan-blocks", "rasterizer/scan.slang", "scanBlocks"},
-      {"scan-add", "rasterizer/scan.slang", "scanAdd"},
-      {"bin-insert", "rasterizer/bin-insert.slang", "binInsert"},
-      {"raster-tiles", "rasterizer/raster-tiles.slang", "rasterTiles"},
-      {"raster-items", "rasterizer/raster-items.slang", "rasterItems"},
-      {"resolve", "rasterizer/resolve.slang", "resolve"},
-      {"shade", "rasterizer/shade.slang", "shade"},
-      {"attribute", "rasterizer/attribute.slang", "interpolateAttribute"},
+      {"clear", "rasterizer/clear.slang", "clear", kBand, kPixels, kLaneEach, needClear},
+      {"transform", "rasterizer/transform.slang", "transform", kBand, kVertices, kLaneEach, needTransform},
+      {"project", "rasterizer/transform.slang", "project", kBand, kVertices, kLaneEach, needProject},
+      {"setup", "rasterizer/setup.slang", "setup", kDriven, kTriangles, kLaneEach, needSetup},
+      {"payload", "rasterizer/payload.slang", "colourTriangles", kBatch, kTriangles, kLaneEach, needPayload},
+      {"bin-count", "rasterizer/bin-count.slang", "binCount", kDriven, kWorkItems, kLaneEach, needBinCount},
+      {"scan-blocks", "rasterizer/scan.slang", "scanBlocks", kDriven, kScanGroups, kGroupEach, needScanBlocks},
+      {"scan-add", "rasterizer/scan.slang", "scanAdd", kDriven, kScanGroups, kGroupEach, needScanAdd},
+      {"bin-insert", "rasterizer/bin-insert.slang", "binInsert", kDriven, kWorkItems, kLaneEach, needBinInsert},
+      {"raster-tiles", "rasterizer/raster-tiles.slang", "rasterTiles", kDriven, kTiles, kGroupEach, needRasterTiles},
+      {"raster-items", "rasterizer/raster-items.slang", "rasterItems", kDriven, kWorkItems, kLaneEach, needRasterItems},
+      {"resolve", "rasterizer/resolve.slang", "resolve", kRaster, kPixels, kLaneEach, needResolve},
+      {"shade", "rasterizer/shade.slang", "shade", kVisible, kPixels, kLaneEach, needShade},
+      {"attribute", "rasterizer/attribute.slang", "interpolateAttribute", kStreams, kPixels, kLaneEach, needAttribute},
   };
   return list;
 }
 
-std::vector<std::string> stagesOf(const Plan& plan) {
-  const Variant& v = plan.resolved;
-  const std::string binning = v.get("binning");
-  std::vector<std::string> names;
-  if (plan.clear) names.push_back("clear");
-  names.push_back(plan.transform ? "transform" : "project");
-  names.push_back("setup");
-  if (plan.payload) names.push_back("payload");
-  if (binning == "exact") names.push_back("bin-count");
-  if (binning == "exact" || (binning == "queue" && v.get("overflow") == "retry"))
-    names.insert(names.end(), {"scan-blocks", "scan-add"});
-  if (plan.binned && binning != "aabb-scan") names.push_back("bin-insert");
-  names.push_back(plan.binned ? "raster-tiles" : "raster-items");
-  if (plan.resolve) names.push_back("resolve");
-  if (plan.shade) names.push_back("shade");
-  if (plan.attribute) names.push_back("attribute");
-  return names;
+const Stage& stageOf(std::string_view name) {
+  const auto found = std::ranges::find(stages(), name, &Stage::name);
+  if (found != stages().end()) return *found;
+  fail(fmt::format("no stage is called `{}`; {}", name, whatThereIs(name, namesOf(stages(), &Stage::name))));
+}
+
+bool isBehindVisibility(std::string_view stage) { return stageOf(stage).moment >= Moment::kVisible; }
+
+std::string groupFormula(const Stage& stage) {
+  return stage.groups ? formula(stage.over) : fmt::format("ceil({} / {})", formula(stage.over), kLanes);
+}
+
+std::uint64_t groupsOf(const Stage& stage, const UniformValue& uniform) {
+  const std::uint64_t elements = count(stage.over, uniform);
+  return stage.groups ? elements : ceilDivide(elements, kLanes);
 }
 
 KernelRequest kernelRequest(std::string_view name, const Plan& plan) {
-  const auto stage = std::ranges::find(stages(), name, &Stage::name);
-  if (stage == stages().end()) throw std::logic_error("no stage " + std::string(name));
+  const Stage& stage = stageOf(name);
   const std::string route = plan.resolved.get("route");
   KernelRequest request;
-  request.stage = stage->name;
-  request.source = stage->source;
-  request.entry = stage->entry;
+  request.stage = stage.name;
+  request.source = stage.source;
+  request.entry = stage.entry;
   request.route = route == "cpp" ? Route::kCpp : route == "glsl" ? Route::kGlsl : Route::kSpirv;
   request.modules = variantModules(name, plan.resolved);
   for (const Axis& axis : axes())
@@ -67,17 +73,16 @@ KernelRequest kernelRequest(std::string_view name, const Plan& plan) {
 }
 
 void checkStages(const Plan& plan, const KernelFiles& files) {
-  const std::vector<std::string> names = stagesOf(plan);
   for (const auto& [stage, file] : files)
-    if (std::ranges::find(names, stage) == names.end())
+    if (!plan.runs(stage))
       failUsage(fmt::format("kernel {} ({}): this plan does not run such a stage; it runs {}", stage, file.string(),
-                            fmt::join(names, ", ")));
+                            fmt::join(plan.stages, ", ")));
 }
 
 std::vector<KernelRequest> kernelRequests(const Plan& plan, const KernelFiles& files) {
   checkStages(plan, files);
   std::vector<KernelRequest> requests;
-  for (const std::string& name : stagesOf(plan)) {
+  for (const std::string& name : plan.stages) {
     const auto file = files.find(name);
     KernelRequest own = kernelRequest(name, plan);
     requests.push_back(file == files.end() ? std::move(own) : requestOf(std::move(own), file->second));

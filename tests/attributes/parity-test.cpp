@@ -13,6 +13,7 @@
 #include "tests/support/cut-device.h"
 #include "tests/support/machines.h"
 #include "tests/support/random-scene.h"
+#include "tests/support/streams.h"
 #include "tests/support/variants.h"
 
 using namespace tessera;
@@ -24,13 +25,13 @@ void addValues(Scene& scene, std::uint64_t seed) {
   Random random(seed);
   const float strange[] = {std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN(),
                            std::numeric_limits<float>::max(), std::numeric_limits<float>::denorm_min()};
-  scene.attributeName = "random";
+  nameAttribute(scene, "random");
   for (std::size_t v = 0; v < scene.vertexCount(); ++v) {
     const double scale = std::ldexp(1.0, static_cast<int>(random.bits() % 40) - 20);
     auto value = static_cast<float>(random.between(-scale, scale));
     if (random.bits() % 8 == 0) value = 3;
     if (seed % 4 == 0 && random.bits() % 16 == 0) value = strange[random.bits() % 4];
-    scene.attribute.push_back(value);
+    attributeOf(scene).push_back(value);
   }
 }
 
@@ -55,11 +56,11 @@ CHECKED_PLACE_TEST_CASE("Values of random scenes have the oracle's bits", "[attr
     CAPTURE(scene.name, seed, variant.text());
     const reference::Result oracle = reference::render(scene, imageOf(variant));
     const Frame frame = machine.render(scene, variant);
-    REQUIRE(frame.image.attribute.size() == frame.image.pixels());
+    REQUIRE(valuesOf(frame.image).size() == frame.image.pixels());
     const std::string different = difference(frame, oracle);
     CHECK(different == "");
     failures += !different.empty();
-    for (const float value : frame.image.attribute) values += std::isfinite(value);
+    for (const float value : valuesOf(frame.image)) values += std::isfinite(value);
   }
   CHECK(values > 100'000);
 }
@@ -68,7 +69,7 @@ TEST_CASE("Values do not depend on how the host cuts a frame", "[attributes]") {
   Scene scene = loadInput("generate:torus?rings=40&sides=20", 150, 500);
   append(scene, generateMesh("soup?count=1000&pixels=8000"));
   scene.clipFromObject = {1.7f, 0.3f, 0, 0.2f, 0.1f, -2.1f, 0.4f, 0, 0.2f, 0.3f, -1.01f, 0.6f, 0.2f, 0.3f, -1, 0.8f};
-  for (const glm::vec3& p : scene.positions) scene.attribute.push_back(p.x + p.y);
+  for (const glm::vec3& p : scene.positions) attributeOf(scene).push_back(p.x + p.y);
   const reference::Result oracle = reference::render(scene);
   Machine cut("cut", "cpp", makeCutDevice(makeCpuDevice(), 80000, 0));
   for (const char* const binning : {"exact", "none"}) {
@@ -86,15 +87,15 @@ PLACE_TEST_CASE("The attribute stage runs only where values were asked for", "[a
     return *std::ranges::find(plan.entries, std::string("attribute"), &PlanEntry::pass);
   };
   const Frame without = machine.render(scene);
-  CHECK(without.image.attribute.empty());
+  CHECK(valuesOf(without.image).empty());
   CHECK_FALSE(entry(without.plan).kept);
   CHECK(entry(without.plan).why.find("no values asked for") != std::string::npos);
-  scene.attribute.assign(scene.vertexCount(), 2.5f);
+  attributeOf(scene).assign(scene.vertexCount(), 2.5f);
   const Frame with = machine.render(scene);
   CHECK(entry(with.plan).kept);
   for (std::size_t k = 0; k < with.image.pixels(); ++k) {
     const bool empty = with.image.ids[k] == kNoTriangle;
-    CHECK(std::bit_cast<std::uint32_t>(with.image.attribute[k]) ==
+    CHECK(std::bit_cast<std::uint32_t>(valuesOf(with.image)[k]) ==
           (empty ? 0x7fc00000u : std::bit_cast<std::uint32_t>(2.5f)));
   }
   CHECK(difference(Framebuffer{with.image.width, with.image.height, with.image.depth, with.image.ids, {}, {}, {}},
@@ -103,7 +104,7 @@ PLACE_TEST_CASE("The attribute stage runs only where values were asked for", "[a
 
 PLACE_TEST_CASE("Values that do not fit the scene or the commit are refused", "[attributes]") {
   Scene scene = loadInput("generate:grid?columns=4&rows=4", 64, 64);
-  scene.attributeName = "height";
+  nameAttribute(scene, "height");
   const auto message = [&](const Variant& variant) -> std::string {
     try {
       machine.render(scene, variant);
@@ -113,8 +114,8 @@ PLACE_TEST_CASE("Values that do not fit the scene or the commit are refused", "[
     }
     return "";
   };
-  scene.attribute.assign(3, 0.0f);
+  attributeOf(scene).assign(3, 0.0f);
   CHECK(message({}) == "attribute height: 3 values for 25 vertices; one a vertex would be right");
-  scene.attribute.assign(scene.vertexCount(), 0.0f);
+  attributeOf(scene).assign(scene.vertexCount(), 0.0f);
   CHECK(message({{"commit", "count"}}).starts_with("attribute height: commit=count"));
 }

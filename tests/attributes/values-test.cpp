@@ -11,6 +11,7 @@
 #include "tests/reference/in-pixels.h"
 #include "tests/support/compare.h"
 #include "tests/support/machines.h"
+#include "tests/support/streams.h"
 
 using namespace tessera;
 using reference::Fill, reference::Image;
@@ -28,15 +29,15 @@ Scene heightField(std::uint32_t columns, std::uint32_t rows) {
   for (std::uint32_t y = 0; y < rows; ++y)
     for (std::uint32_t x = 0; x < columns; ++x) {
       vertices.push_back({static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f});
-      scene.attribute.push_back(static_cast<float>(random() * 0x1p-20 - 1500));
+      attributeOf(scene).push_back(static_cast<float>(random() * 0x1p-20 - 1500));
       if (x + 1 == columns || y + 1 == rows) continue;
       const std::uint32_t a = y * columns + x;
       triangles.push_back({a, a + columns, a + 1});
       triangles.push_back({a + 1, a + columns, a + columns + 1});
     }
   Scene placed = inPixels(columns, rows, vertices, triangles);
-  placed.attribute = scene.attribute;
-  placed.attributeName = "height";
+  attributeOf(placed) = attributeOf(scene);
+  nameAttribute(placed, "height");
   return placed;
 }
 
@@ -45,16 +46,16 @@ Scene heightField(std::uint32_t columns, std::uint32_t rows) {
 TEST_CASE("Linear on the screen without perspective and by the plane's own coordinates with it", "[attributes]") {
   // A ramp of 0 to 8 over 8 pixels; the vertices reach beyond the raster.
   Scene ramp = inPixels(8, 2, {{0, 0}, {8, 0}, {0, 8}, {8, 8}}, {{0, 2, 1}, {1, 2, 3}});
-  ramp.attribute = {0, 8, 0, 8};
+  attributeOf(ramp) = {0, 8, 0, 8};
   const auto flat = reference::render(ramp);
-  for (std::uint32_t k = 0; k < 16; ++k) CHECK(flat.image.attribute[k] == static_cast<float>(k % 8) + 0.5f);
+  for (std::uint32_t k = 0; k < 16; ++k) CHECK(valuesOf(flat.image)[k] == static_cast<float>(k % 8) + 0.5f);
   CHECK(reference::attributeError(ramp, {}, flat.image).max == 0);
   // The right side three times as far: at screen position s of 0 to 1 the value is 8 (s/3) / ((1 - s) + s/3).
   for (const int v : {1, 3}) ramp.clip[v] *= 3.0f;
   const auto steep = reference::render(ramp);
   for (std::uint32_t k = 0; k < 16; ++k) {
     const double s = (k % 8 + 0.5) / 8;
-    CHECK(steep.image.attribute[k] == Approx(8 * (s / 3) / ((1 - s) + s / 3)).epsilon(1e-6));
+    CHECK(valuesOf(steep.image)[k] == Approx(8 * (s / 3) / ((1 - s) + s / 3)).epsilon(1e-6));
   }
 }
 
@@ -67,10 +68,10 @@ TEST_CASE("Errors without perspective are within six roundings of the largest va
     std::vector<PixelVertex> v;
     for (int k = 0; k < 3; ++k) v.push_back({32 + uniform(size) - uniform(size), 32 + uniform(size) - uniform(size)});
     Scene scene = inPixels(64, 64, v, {{0, 1, 2}});
-    for (int k = 0; k < 3; ++k) scene.attribute.push_back(uniform(200) - 100);
+    for (int k = 0; k < 3; ++k) attributeOf(scene).push_back(uniform(200) - 100);
     const auto result = reference::render(scene);
     const auto error = reference::attributeError(scene, {}, result.image);
-    const auto [least, most] = std::ranges::minmax(scene.attribute);
+    const auto [least, most] = std::ranges::minmax(attributeOf(scene));
     const double bound = 6 * kUnit * std::max(std::abs(least), std::abs(most)) * 1.001;
     CHECK(error.max <= bound);
     CHECK(error.rms <= error.max);
@@ -81,15 +82,15 @@ TEST_CASE("Errors without perspective are within six roundings of the largest va
 
 TEST_CASE("The error of a raster of values is that of its values", "[attributes]") {
   Scene ramp = inPixels(4, 1, {{0, 0}, {4, 0}, {0, 4}, {4, 4}}, {{0, 2, 1}, {1, 2, 3}});
-  ramp.attribute = {0, 4, 0, 4};
+  attributeOf(ramp) = {0, 4, 0, 4};
   Framebuffer frame = reference::render(ramp).image;
-  frame.attribute[1] += 0.25f;
-  frame.attribute[2] -= 0.5f;
+  valuesOf(frame)[1] += 0.25f;
+  valuesOf(frame)[2] -= 0.5f;
   const auto error = reference::attributeError(ramp, {}, frame);
   CHECK(error.pixels == 4);
   CHECK(error.max == 0.5);
   CHECK(error.rms == Approx(std::sqrt((0.0625 + 0.25) / 4)));
-  frame.attribute[0] = std::nanf("");
+  valuesOf(frame)[0] = std::nanf("");
   CHECK(std::isinf(reference::attributeError(ramp, {}, frame).max));
 }
 
@@ -99,9 +100,9 @@ PLACE_TEST_CASE("A height field of integer vertices has each vertex' value at it
     const Scene scene = heightField(columns, rows);
     INFO(columns << " x " << rows);
     const Framebuffer oracle = reference::render(scene, cells).image;
-    CHECK(oracle.attribute == scene.attribute);  // to the outermost row and column
+    CHECK(valuesOf(oracle) == attributeOf(scene));  // to the outermost row and column
     const Framebuffer image = machine.render(scene, {{"fill", "inclusive"}, {"sub-pixel", "0"}}).image;
-    CHECK(image.attribute == scene.attribute);
+    CHECK(valuesOf(image) == attributeOf(scene));
     CHECK(difference(image, oracle) == "");
   }
 }

@@ -4,6 +4,8 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include "tests/support/streams.h"
+
 using namespace tessera;
 
 TEST_CASE("Order statistics of a sample") {
@@ -56,8 +58,8 @@ TEST_CASE("A row holds what applies and leaves out what does not") {
 
 TEST_CASE("A row holds errors with an oracle and without") {
   Scene scene;
-  scene.attribute = {1};
-  scene.attributeName = "height";
+  attributeOf(scene) = {1};
+  nameAttribute(scene, "height");
   Run run;
   run.scene = &scene;
   run.hitCountNotOne = 3;

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "fixture.h"
+#include "tests/support/streams.h"
 
 using namespace tessera;
 
@@ -89,9 +90,9 @@ TEST_CASE("PLY: every scalar type is an attribute in text and both byte orders")
     for (std::size_t i = 0; i < kFields.size(); ++i) {
       INFO(format << " " << kFields[i].type);
       const auto first = static_cast<float>(kFields[i].value);
-      CHECK(readMesh(path, {nameOf(i), {}}).attribute == Values{first, first + 1, first + 2});
+      CHECK(attributeOf(readMesh(path, {nameOf(i), {}})) == Values{first, first + 1, first + 2});
     }
-    CHECK(readMesh(path).attribute.empty());
+    CHECK(attributeOf(readMesh(path)).empty());
     CHECK(readMesh(path).positions[1] == glm::dvec3(1, 0, 7));
   }
 }
@@ -100,29 +101,29 @@ TEST_CASE("An integer property is mapped to a range and no other is") {
   const Files files;
   const std::string path = files.write("a.ply", triangle("0", "32767", "8191"));
   const ValueRange range{-100, 300};
-  const Values mapped = readMesh(path, {"i", range}).attribute;
+  const Values mapped = attributeOf(readMesh(path, {"i", range}));
   CHECK(mapped == Values{-100, 300, static_cast<float>(-100 + 400.0 * (8191 / 32767.0))});
-  CHECK(readMesh(path, {"i", {}}).attribute == Values{0, 32767, 8191});
-  CHECK(readMesh(path, {"r", range}).attribute == Values{0, 0.5f, 2});
-  CHECK(loadInput(path, 0, 0, {"y", range}).attribute == Values{0, 0, 1});
+  CHECK(attributeOf(readMesh(path, {"i", {}})) == Values{0, 32767, 8191});
+  CHECK(attributeOf(readMesh(path, {"r", range})) == Values{0, 0.5f, 2});
+  CHECK(attributeOf(loadInput(path, 0, 0, {"y", range})) == Values{0, 0, 1});
   for (const char* const beyond : {"32768", "-1"}) {
     const std::string wrong = files.write("b.ply", triangle("0", beyond, "0"));
     CHECK(usageError([&] {
             readMesh(wrong, {"i", range});
           }) == wrong + ": i of vertex 1: " + beyond + " cannot be mapped to a range; integers of 0 to 32767 can");
-    CHECK(readMesh(wrong, {"i", {}}).attribute[1] == std::stof(beyond));
+    CHECK(attributeOf(readMesh(wrong, {"i", {}}))[1] == std::stof(beyond));
   }
 }
 
 TEST_CASE("Coordinates are attributes of anything but a replay") {
   const Files files;
   const Scene grid = loadInput("generate:grid?columns=2&rows=3", 8, 8, {"y", {}});
-  CHECK(grid.attributeName == "y");
-  REQUIRE(grid.attribute.size() == grid.positions.size());
-  for (std::size_t v = 0; v < grid.positions.size(); ++v) CHECK(grid.attribute[v] == grid.positions[v].y);
-  CHECK(loadInput("generate:grid").attribute.empty());
+  CHECK(attributeName(grid) == "y");
+  REQUIRE(attributeOf(grid).size() == grid.positions.size());
+  for (std::size_t v = 0; v < grid.positions.size(); ++v) CHECK(attributeOf(grid)[v] == grid.positions[v].y);
+  CHECK(attributeOf(loadInput("generate:grid")).empty());
   const std::string obj = files.write("a.obj", "v 1 2 3\nv 4 5 6\nv 7 8 10\nf 1 2 3\n");
-  CHECK(loadInput(obj, 0, 0, {"z", {}}).attribute == Values{3, 6, 10});
+  CHECK(attributeOf(loadInput(obj, 0, 0, {"z", {}})) == Values{3, 6, 10});
 }
 
 TEST_CASE("A scene joins the attributes of its meshes and refuses one that lacks it") {
@@ -133,8 +134,8 @@ TEST_CASE("A scene joins the attributes of its meshes and refuses one that lacks
       "[[mesh]]\nsource = \"a.ply\"\n[[mesh]]\nsource = \"b.ply\"\nmatrix = [1,0,0,10, 0,1,0,0, 0,0,1,0, 0,0,0,1]\n";
   const std::string path = files.write("a.toml", meshes);
   const Scene scene = loadInput(path, 0, 0, {"i", {}});
-  CHECK(scene.attribute == Values{1, 2, 3, 4, 5, 6});
-  CHECK(loadInput(path, 0, 0, {"x", {}}).attribute == Values{0, 1, 0, 10, 11, 10});
+  CHECK(attributeOf(scene) == Values{1, 2, 3, 4, 5, 6});
+  CHECK(attributeOf(loadInput(path, 0, 0, {"x", {}})) == Values{0, 1, 0, 10, 11, 10});
   const std::string more = files.write("b.toml", meshes + "[[mesh]]\nsource = \"generate:grid\"\n");
   CHECK(usageError([&] {
           loadInput(more, 0, 0, {"i", {}});
@@ -158,21 +159,21 @@ TEST_CASE("A replay keeps the attribute and its bits") {
   Scene scene;
   scene.clip = {{0, 0, 0, 1}, {1, 0, 0, 1}, {0, 1, 0, 1}};
   scene.triangles = {{0, 1, 2}};
-  scene.attribute = {-0.0f, std::numeric_limits<float>::quiet_NaN(), 1e-40f};
-  scene.attributeName = "height";
+  attributeOf(scene) = {-0.0f, std::numeric_limits<float>::quiet_NaN(), 1e-40f};
+  nameAttribute(scene, "height");
   const std::string path = files.path("a.replay");
   writeReplay(path, scene);
   for (const char* const name : {"", "height"}) {
     const Scene read = loadInput(path, 0, 0, {name, {}});
-    CHECK(read.attributeName == "height");
-    REQUIRE(read.attribute.size() == 3);
-    CHECK(std::memcmp(read.attribute.data(), scene.attribute.data(), 12) == 0);
+    CHECK(attributeName(read) == "height");
+    REQUIRE(attributeOf(read).size() == 3);
+    CHECK(std::memcmp(attributeOf(read).data(), attributeOf(scene).data(), 12) == 0);
   }
   CHECK(usageError([&] { loadInput(path, 0, 0, {"x", {}}); }) == path + ": no attribute 'x'; there is height");
   const std::string before = sceneHash(scene);
-  scene.attribute[0] = 1;
+  attributeOf(scene)[0] = 1;
   CHECK(sceneHash(scene) != before);
-  scene.attribute.clear();
+  dropAttribute(scene);
   writeReplay(path, scene);
   CHECK(usageError([&] { loadInput(path, 0, 0, {"x", {}}); }) == path + ": no attribute 'x'; there are none");
 }

@@ -4,6 +4,7 @@
 
 #include "fixture.h"
 #include "ply-writer.h"
+#include "tests/support/streams.h"
 
 using namespace tessera;
 
@@ -153,8 +154,8 @@ TEST_CASE("PLY: colours of any type, and numbers with the names of texture coord
       const Mesh mesh = readMesh(path, {"v", {}});
       CHECK(mesh.positions == kPositions);
       CHECK(mesh.triangles == kTriangles);
-      CHECK(mesh.attribute == std::vector<float>{2, 2, 2, 2});
-      CHECK(readMesh(path, {"blue", {}}).attribute == std::vector<float>{102, 102, 102, 102});
+      CHECK(attributeOf(mesh) == std::vector<float>{2, 2, 2, 2});
+      CHECK(attributeOf(readMesh(path, {"blue", {}})) == std::vector<float>{102, 102, 102, 102});
     }
   }
 }
@@ -178,7 +179,7 @@ TEST_CASE("PLY: infinite and NaN values, large numbers and small ones, are the s
     CHECK(mesh.positions[1].x == kInfinity);
     CHECK(mesh.positions[2].x == -kInfinity);
     CHECK(mesh.positions[3] == glm::dvec3(0, 1e300, format == "ascii" ? 0.100000001490 : double(0.1f)));
-    CHECK(std::isnan(mesh.attribute[0]));
+    CHECK(std::isnan(attributeOf(mesh)[0]));
     CHECK(mesh.triangles == kTriangles);
   }
   // In float32 where that is the type: text and binary files of one mesh are one mesh.

@@ -2,6 +2,7 @@
 #include <glm/geometric.hpp>
 
 #include "fixture.h"
+#include "tests/support/streams.h"
 
 using namespace tessera;
 
@@ -64,7 +65,7 @@ matrix = [1,2,3,4, 5,6,7,8, 9,10,11,12, 13,14,15,16.5]
   CHECK(scene.positions[3] == glm::vec3(10, 20, 30));
   CHECK(scene.positions[4] == glm::vec3(10, 21, 30));
   CHECK(scene.positions[5] == glm::vec3(8, 20, 30));
-  CHECK(scene.normals[3] == glm::vec3(0, 0, 1));
+  CHECK(normalsOf(scene)[3] == glm::vec3(0, 0, 1));
   CHECK(scene.clipFromObject[1] == 2);
   CHECK(scene.clipFromObject[15] == 16.5f);
   CHECK(loadInput(path, 100, 0).width == 100);
@@ -76,7 +77,7 @@ TEST_CASE("Normals of a mesh turn with its matrix, under unequal scales and refl
   files.write("one.off", "OFF\n3 1 0\n0 0 0\n1 0 1\n0 1 0\n3 0 1 2\n");  // in the plane x = z, normal (-1, 0, 1)
   const Scene scene = loadInput(
       files.write("a.toml", "[[mesh]]\nsource = \"one.off\"\nmatrix = [-3,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]\n"));
-  CHECK(glm::distance(scene.normals[0], glm::normalize(glm::vec3(1.0f / 3, 0, 1))) < 1e-6f);
+  CHECK(glm::distance(normalsOf(scene)[0], glm::normalize(glm::vec3(1.0f / 3, 0, 1))) < 1e-6f);
 }
 
 TEST_CASE("A camera by eye and target: y down, near at 0, far at 1, the aspect of the image") {

@@ -92,7 +92,7 @@ CHECKED_PLACE_TEST_CASE("Polygons that rounding bends keep all their corners", "
     }
     if (reference::clip(t, scene.width, scene.height).polygon.size() < 10) continue;
     const auto first = static_cast<std::uint32_t>(scene.clip.size());
-    scene.clip.insert(scene.clip.end(), t.begin(), t.end());
+    scene.clip.own().insert(scene.clip.own().end(), t.begin(), t.end());
     scene.triangles.push_back({first, first + 1, first + 2});
   }
   INFO("searched " << searched);

@@ -13,6 +13,7 @@
 #include "experiments/harness/cells.h"
 #include "experiments/harness/journal.h"
 #include "host/measure/row.h"
+#include "tests/support/streams.h"
 #include "tests/sweep/small-journal.h"
 
 namespace tessera {
@@ -98,7 +99,7 @@ std::string image(const fs::path& folder, bool more) {
                     .colour = {}};
   if (more) {
     frame.colour.assign(35, glm::vec3(0.25f));
-    frame.attribute.assign(35, 1.5f);
+    valuesOf(frame).assign(35, 1.5f);
   }
   writeImage(folder / "seed.exr", frame);
   return readFile(folder / "seed.exr");
@@ -112,10 +113,10 @@ std::string replay(const fs::path& folder) {
 /// What a scene has to be, whatever it was read from.
 void checkScene(const Scene& scene) {
   REQUIRE((scene.positions.empty() || scene.clip.empty()));
-  REQUIRE((scene.normals.empty() || scene.normals.size() == scene.positions.size()));
-  REQUIRE((scene.attribute.empty() || scene.attribute.size() == scene.vertexCount()));
+  REQUIRE((normalsOf(scene).empty() || normalsOf(scene).size() == scene.positions.size()));
+  REQUIRE((attributeOf(scene).empty() || attributeOf(scene).size() == scene.vertexCount()));
   REQUIRE((scene.width >= 1 && scene.width <= kMaxExtent && scene.height >= 1 && scene.height <= kMaxExtent));
-  for (const glm::vec3& n : scene.normals) REQUIRE(std::abs(glm::dot(n, n) - 1) < 1e-3f);
+  for (const glm::vec3& n : normalsOf(scene)) REQUIRE(std::abs(glm::dot(n, n) - 1) < 1e-3f);
   for (const float m : scene.clipFromObject) REQUIRE(std::isfinite(m));
   for (const std::string& note : scene.notes) REQUIRE(note.find_first_of("\r\n") == std::string::npos);
   REQUIRE(sceneHash(scene).size() == 64);

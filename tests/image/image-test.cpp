@@ -13,6 +13,7 @@
 #include <random>
 
 #include "host/support/files.h"
+#include "tests/support/streams.h"
 
 using namespace tessera;
 using Catch::Matchers::Contains;
@@ -38,7 +39,7 @@ Framebuffer randomFrame(std::uint32_t width, std::uint32_t height, int parts) {
     if (parts & kColour) frame.colour.emplace_back(unit(), unit(), unit());
     // Any bits, those of the NaN of empty pixels and of other NaNs among them.
     if (parts & kAttribute)
-      frame.attribute.push_back(std::bit_cast<float>(k % 4 ? static_cast<std::uint32_t>(random()) : 0x7fc00000u));
+      valuesOf(frame).push_back(std::bit_cast<float>(k % 4 ? static_cast<std::uint32_t>(random()) : 0x7fc00000u));
   }
   return frame;
 }
@@ -50,7 +51,7 @@ bool sameBits(const std::vector<T>& a, const std::vector<T>& b) {
 
 bool sameBits(const Framebuffer& a, const Framebuffer& b) {
   return a.width == b.width && a.height == b.height && sameBits(a.depth, b.depth) && sameBits(a.ids, b.ids) &&
-         sameBits(a.hits, b.hits) && sameBits(a.colour, b.colour) && sameBits(a.attribute, b.attribute);
+         sameBits(a.hits, b.hits) && sameBits(a.colour, b.colour) && sameBits(valuesOf(a), valuesOf(b));
 }
 
 std::string bytesOf(const fs::path& path) {
@@ -181,7 +182,7 @@ TEST_CASE("a png of an attribute goes from blue to yellow over the range and an 
   const Folder folder;
   Framebuffer frame{.width = 4, .height = 1, .depth = {}, .ids = {}, .hits = {}, .colour = {}};
   frame.depth.assign(4, 0.5f);
-  frame.attribute = {-2, 0, 2, std::numeric_limits<float>::quiet_NaN()};
+  valuesOf(frame) = {-2, 0, 2, std::numeric_limits<float>::quiet_NaN()};
   const auto pixels = [&](const std::optional<ValueRange>& range) {
     writeImage(folder / "a.png", frame, range);
     const Png png = readPng(folder / "a.png");
@@ -199,7 +200,7 @@ TEST_CASE("a png of an attribute goes from blue to yellow over the range and an 
   const auto half = pixels(ValueRange{-2, 0}), turned = pixels(ValueRange{2, -2});
   CHECK(std::equal(half.begin() + 4, half.begin() + 8, half.begin() + 8));
   CHECK(std::equal(turned.begin(), turned.begin() + 4, own.begin() + 8));
-  frame.attribute = {3, 3, 3, 3};
+  valuesOf(frame) = {3, 3, 3, 3};
   CHECK(pixels({})[3] == 255);  // no span
   frame.colour.assign(4, glm::vec3(1));
   writeImage(folder / "a.png", frame);

@@ -7,6 +7,7 @@
 #include "command.h"
 #include "host/images/comparison.h"
 #include "host/support/files.h"
+#include "tests/support/streams.h"
 
 using namespace tessera;
 using Catch::Matchers::Contains;
@@ -52,10 +53,10 @@ TEST_CASE("a tolerance is an amount or float32 steps and each counts what is bey
 
 TEST_CASE("no tolerance takes a number for what is none") {
   Framebuffer a = grey(2), b = a;
-  a.attribute = {kNan, kNan, kInfinity, std::numeric_limits<float>::max()};
-  b.attribute = {kNan, 0, std::numeric_limits<float>::max(), -kInfinity};
+  valuesOf(a) = {kNan, kNan, kInfinity, std::numeric_limits<float>::max()};
+  valuesOf(b) = {kNan, 0, std::numeric_limits<float>::max(), -kInfinity};
   CHECK(compare(a, b, Tolerances{.depth = {}, .attribute = {1e300, 1e9}, .colour = {}}).attribute == 3);
-  b.attribute[0] = -kNan;
+  valuesOf(b)[0] = -kNan;
   CHECK(compare(a, b, {}).attribute == 4);
   CHECK(compare(a, b, Tolerances{.depth = {}, .attribute = {0, 1}, .colour = {}}).attribute == 3);
 }

@@ -16,6 +16,7 @@
 #include "host/plan/stages.h"
 #include "host/support/files.h"
 #include "host/support/subprocess.h"
+#include "tests/support/streams.h"
 
 namespace tessera {
 namespace {
@@ -36,11 +37,11 @@ constexpr Kind kKinds[] = {{"clip=on shade=smooth", "`shade=smooth`, an attribut
 
 Scene sceneOf(const Kind& kind) {
   Scene scene = loadInput("generate:icosphere?level=1");
-  if (kind.attribute) scene.attribute.assign(scene.vertexCount(), 0.0f);
+  if (kind.attribute) attributeOf(scene).assign(scene.vertexCount(), 0.0f);
   if (kind.clipSpace) {
     scene.clip.assign(scene.vertexCount(), {0, 0, 0.5f, 2});
     scene.positions.clear();
-    scene.normals.clear();
+    dropNormals(scene);
   }
   return scene;
 }
@@ -108,7 +109,7 @@ class Table {
     const Scene scene = sceneOf(kind);
     const Plan all = makePlan(scene, variantOf(kind), emitTarget("spirv").device);
     std::string text;
-    for (const std::string& stage : stagesOf(all)) {
+    for (const std::string& stage : all.stages) {
       // 64-bit atomics are worth rows of their own.
       const bool wide =
           kind.settings == std::string("commit=depth32+id32") &&

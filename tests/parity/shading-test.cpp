@@ -8,6 +8,7 @@
 #include "host/frame/lighting.h"
 #include "tests/support/compare.h"
 #include "tests/support/machines.h"
+#include "tests/support/streams.h"
 
 using namespace tessera;
 
@@ -39,7 +40,7 @@ std::array<double, 3> smoothNormal(const Scene& scene, const Triangle& t, double
   const double w[] = {weight(1, 2), weight(2, 0), weight(0, 1)}, sum = w[0] + w[1] + w[2];
   std::array<double, 3> n{};
   for (int k = 0; k < 3; ++k)
-    for (int i = 0; i < 3; ++i) n[i] += w[k] / sum * scene.normals[t[k]][i];
+    for (int i = 0; i < 3; ++i) n[i] += w[k] / sum * scene.stream(kNormals)->values[3 * t[k] + i];
   return n;
 }
 

@@ -241,16 +241,16 @@ TEST_CASE("unusable triangles are dropped with their cause and the rest of the i
   const auto good = over(0.5f);
   const Scene clean = inPixels(1, 1, good, {{0, 1, 2}});
   Scene scene = clean;
-  scene.clip.insert(scene.clip.end(), {{kNaN, 0, 0, 1},
-                                       {0, kInfinity, 0, 1},
-                                       {0, 0, -kInfinity, 1},
-                                       {0, 0, 0, kNaN},  // 3 to 6
-                                       {0, 0, 0.5f, 0},
-                                       {0, 0, 0, 0},
-                                       {0, 0, 0, 1e-40f},  // 7 to 9
-                                       {1, 0, 0.5f, -1},
-                                       {0, 1, 0.5f, -2},
-                                       {1, 1, 0.5f, -1}});                     // 10 to 12
+  scene.clip.own().insert(scene.clip.own().end(), {{kNaN, 0, 0, 1},
+                                                   {0, kInfinity, 0, 1},
+                                                   {0, 0, -kInfinity, 1},
+                                                   {0, 0, 0, kNaN},  // 3 to 6
+                                                   {0, 0, 0.5f, 0},
+                                                   {0, 0, 0, 0},
+                                                   {0, 0, 0, 1e-40f},  // 7 to 9
+                                                   {1, 0, 0.5f, -1},
+                                                   {0, 1, 0.5f, -2},
+                                                   {1, 1, 0.5f, -1}});         // 10 to 12
   scene.triangles = {{0, 1, 99},   {0xffffffffu, 1, 2},                        // out of range
                      {0, 3, 1},    {4, 0, 1},           {0, 1, 5}, {6, 1, 0},  // not finite
                      {10, 11, 12},                                             // behind the eye in every vertex

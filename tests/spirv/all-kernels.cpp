@@ -16,6 +16,7 @@
 #include "host/support/files.h"
 #include "host/support/subprocess.h"
 #include "tests/support/covering.h"
+#include "tests/support/streams.h"
 
 namespace tessera::test {
 namespace {
@@ -34,13 +35,12 @@ Scene simpleScene(bool objectSpace) {
   Scene scene;
   scene.width = scene.height = 64;
   scene.triangles = {{0, 1, 2}};
+  if (objectSpace) setNormals(scene, std::vector<glm::vec3>(3, {0, 0, 1}));
   for (const glm::vec2 p : {glm::vec2(-0.5f, -0.5f), glm::vec2(-0.5f, 0.5f), glm::vec2(0.5f, -0.5f)}) {
-    if (objectSpace) {
+    if (objectSpace)
       scene.positions.emplace_back(p, 0.5f);
-      scene.normals.emplace_back(0, 0, 1);
-    } else {
+    else
       scene.clip.emplace_back(p, 0.5f, 1.0f);
-    }
   }
   return scene;
 }
@@ -49,7 +49,7 @@ std::vector<KernelRequest> kernelsOf(const Stage& stage, Route route, std::size_
   DeviceInfo device;
   device.api = route == Route::kCpp ? "cpu" : "vulkan";
   Scene scene = simpleScene(stage.name != "project");
-  if (stage.name == "attribute") scene.attribute.assign(scene.vertexCount(), 1.0f);
+  if (stage.name == "attribute") attributeOf(scene).assign(scene.vertexCount(), 1.0f);
   Variant base = settingFor(stage.name);
   if (route == Route::kGlsl) base.set("route", "glsl");
   std::vector<AxisValues> axesRead;
@@ -61,7 +61,7 @@ std::vector<KernelRequest> kernelsOf(const Stage& stage, Route route, std::size_
   const auto planOf = [&](const Variant& variant) -> std::optional<Plan> {
     try {
       Plan plan = makePlan(scene, variant, device);
-      if (std::ranges::count(stagesOf(plan), stage.name)) return plan;
+      if (plan.runs(stage.name)) return plan;
     } catch (const Error&) {  // values that do not go together
     }
     return std::nullopt;

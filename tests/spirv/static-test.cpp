@@ -7,6 +7,7 @@
 
 #include "all-kernels.h"
 #include "host/kernels/spirv.h"
+#include "tests/support/streams.h"
 
 using namespace tessera;
 using namespace tessera::test;
@@ -33,12 +34,13 @@ CompiledKernel projectKernel(Route route) {
 
 /// Whether no plan dispatches the stage with this value.
 bool neverRuns(const std::string& stage, const Axis& axis, const AxisValue& value, Route route) {
-  if (value.has(kNeedsCpu) && route != Route::kCpp) return true;
+  if (value.needs.cpu && route != Route::kCpp) return true;
   if (axis.name == "shade") return value.name == "none" || (stage == "payload" && value.name == "smooth");
   if (axis.name == "binning") return value.name == "none" || (stage == "bin-insert" && value.name == "aabb-scan");
   if (axis.name != "commit") return false;
-  return (stage == "raster-items" && value.has(kWritesTiles)) || (stage == "resolve" && !value.has(kResolves)) ||
-         (stage == "payload" && !value.has(kKeepsColours));
+  return (stage == "raster-items" && commitTraits(value.name).writesTiles) ||
+         (stage == "resolve" && !commitTraits(value.name).resolves) ||
+         (stage == "payload" && !commitTraits(value.name).keepsColours);
 }
 
 TEST_CASE("every value of an axis that a stage reads is in a kernel of it") {

@@ -13,6 +13,7 @@
 #include "host/kernels/slang-sources.h"
 #include "host/kernels/spirv.h"
 #include "host/plan/stages.h"
+#include "tests/support/streams.h"
 
 using namespace tessera;
 
@@ -35,8 +36,8 @@ Scene triangleScene() {
   Scene scene;
   scene.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   scene.triangles = {{0, 1, 2}};
-  scene.normals.assign(3, {0, 0, 1});
-  scene.attribute = {1, 2, 3};
+  setNormals(scene, {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}});
+  attributeOf(scene) = {1, 2, 3};
   return scene;
 }
 
@@ -58,15 +59,15 @@ std::optional<Plan> planWith(const std::string& stage, const std::string& axis, 
   Variant variant = settingFor(stage);
   variant.set(axis, value);
   Scene scene = triangleScene();
-  if (stage != "attribute") scene.attribute.clear();
+  if (stage != "attribute") dropAttribute(scene);
   if (stage == "project") {
     scene.clip.assign(3, {0, 0, 0, 1});
     scene.positions.clear();
-    scene.normals.clear();
+    dropNormals(scene);
   }
   try {
     Plan plan = makePlan(scene, variant, device);
-    const std::vector<std::string> dispatched = stagesOf(plan);
+    const std::vector<std::string> dispatched = plan.stages;
     if (std::ranges::find(dispatched, stage) != dispatched.end()) return plan;
   } catch (const Error&) {
   }

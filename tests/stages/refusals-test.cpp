@@ -7,6 +7,7 @@
 #include <catch2/catch.hpp>
 
 #include "host/plan/choice.h"
+#include "tests/support/streams.h"
 
 using namespace tessera;
 
@@ -57,7 +58,7 @@ TEST_CASE("Axes that a scene cannot have are refused", "[refusals]") {
     checkRefusal(clipSpace, {{"shade", shade}}, cpu(), ExitCode::kUsage,
                  {std::string("shade=") + shade, "clip-space positions only", "set shade=id"});
   Scene bare = sphere();
-  bare.normals.clear();
+  dropNormals(bare);
   checkRefusal(bare, {{"shade", "smooth"}}, cpu(), ExitCode::kUsage,
                {"shade=smooth", "no vertex normals", "set shade=flat"});
 }

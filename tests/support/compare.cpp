@@ -17,8 +17,8 @@ std::string pixelText(const Framebuffer& frame, std::size_t k) {
   if (!frame.hits.empty()) text += fmt::format(" hits {}", frame.hits[k]);
   if (!frame.colour.empty())
     text += fmt::format(" colour {} {} {}", frame.colour[k].x, frame.colour[k].y, frame.colour[k].z);
-  if (!frame.attribute.empty())
-    text += fmt::format(" value {} ({:#010x})", frame.attribute[k], std::bit_cast<std::uint32_t>(frame.attribute[k]));
+  if (const auto values = frame.values(); !values.empty())
+    text += fmt::format(" value {} ({:#010x})", values[k], std::bit_cast<std::uint32_t>(values[k]));
   return text;
 }
 

@@ -8,6 +8,7 @@
 
 #include "host/kernels/spirv.h"
 #include "host/plan/stages.h"
+#include "tests/support/streams.h"
 
 using namespace tessera;
 
@@ -40,7 +41,7 @@ TEST_CASE("No stage for a device without 64-bit types declares one") {
       variant.set("route", route);
       const Plan plan = makePlan(Scene{}, variant, device32());
       CHECK(plan.resolved.get("wide") == "two-word");
-      for (const std::string& stage : stagesOf(plan)) {
+      for (const std::string& stage : plan.stages) {
         INFO(stage << ", " << variant.text());
         CHECK(!isWide(kernels.get(kernelRequest(stage, plan))));
       }

@@ -38,30 +38,49 @@ struct Ledger {
   std::uint64_t now = 0, peak = 0;
 };
 
-class CpuBuffer final : public Buffer {
+/// Bytes of memory that kernels see, counted while the buffer is there.
+class CpuBuffer : public Buffer {
  public:
-  CpuBuffer(std::size_t bytes, std::string_view name, std::shared_ptr<Ledger> ledger)
-      : bytes_(bytes), ledger_(std::move(ledger)) {
-    const bool large = bytes >= kHugePage;
-    if (posix_memalign(&data_, large ? kHugePage : kCacheLine, std::max(bytes, kCacheLine)) != 0)
-      fail(fmt::format("cpu: no memory for buffer {} of {} bytes", name, bytes));
-    if (large) madvise(data_, bytes, MADV_HUGEPAGE);  // advice: a kernel without huge pages may refuse
+  CpuBuffer(std::byte* data, std::size_t bytes, std::shared_ptr<Ledger> ledger)
+      : data_(data), bytes_(bytes), ledger_(std::move(ledger)) {
     ledger_->now += bytes_;
     ledger_->peak = std::max(ledger_->peak, ledger_->now);
   }
-  ~CpuBuffer() override {
-    std::free(data_);
-    ledger_->now -= bytes_;
-  }
+  ~CpuBuffer() override { ledger_->now -= bytes_; }
   CpuBuffer(const CpuBuffer&) = delete;
 
   std::size_t bytes() const override { return bytes_; }
-  std::byte* data() const { return static_cast<std::byte*>(data_); }
+  std::byte* data() const { return data_; }
 
  private:
+  std::byte* data_;
   std::size_t bytes_;
-  void* data_ = nullptr;
   std::shared_ptr<Ledger> ledger_;
+};
+
+/// Memory of the buffer's own.
+class OwnedBuffer final : public CpuBuffer {
+ public:
+  OwnedBuffer(std::size_t bytes, std::string_view name, std::shared_ptr<Ledger> ledger)
+      : CpuBuffer(take(bytes, name), bytes, std::move(ledger)) {}
+  ~OwnedBuffer() override { std::free(data()); }
+
+ private:
+  static std::byte* take(std::size_t bytes, std::string_view name) {
+    const bool large = bytes >= kHugePage;
+    void* data = nullptr;
+    if (posix_memalign(&data, large ? kHugePage : kCacheLine, std::max(bytes, kCacheLine)) != 0)
+      fail(fmt::format("cpu: no memory for buffer {} of {} bytes", name, bytes));
+    if (large) madvise(data, bytes, MADV_HUGEPAGE);  // advice: a kernel without huge pages may refuse
+    return static_cast<std::byte*>(data);
+  }
+};
+
+/// Memory of the caller's, which kernels only read: it is bound to what they declare as StructuredBuffer.
+class BorrowedBuffer final : public CpuBuffer {
+ public:
+  BorrowedBuffer(std::span<const std::byte> memory, std::shared_ptr<Ledger> ledger)
+      : CpuBuffer(const_cast<std::byte*>(memory.data()), memory.size(), std::move(ledger)) {}
 };
 
 /// What slangc's C++ takes: a range of groups, end exclusive in each dimension.
@@ -120,6 +139,10 @@ std::byte* slice(const Buffer& buffer, std::size_t offset, std::size_t bytes, co
   return cpu.data() + offset;
 }
 
+void refuseBorrowed(const Buffer& buffer) {
+  if (dynamic_cast<const BorrowedBuffer*>(&buffer) != nullptr) fail("cpu: borrowed memory is read only");
+}
+
 std::uint64_t nowNs() {
   return static_cast<std::uint64_t>(
       std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch())
@@ -141,13 +164,17 @@ class CpuDevice final : public Device {
   const DeviceInfo& info() const override { return info_; }
 
   std::unique_ptr<Buffer> createBuffer(std::size_t bytes, std::string_view name) override {
-    return std::make_unique<CpuBuffer>(bytes, name, ledger_);
+    return std::make_unique<OwnedBuffer>(bytes, name, ledger_);
+  }
+  std::unique_ptr<Buffer> borrow(std::span<const std::byte> memory, std::string_view) override {
+    return std::make_unique<BorrowedBuffer>(memory, ledger_);
   }
   std::unique_ptr<Kernel> createKernel(const CompiledKernel& kernel) override {
     return std::make_unique<CpuKernel>(kernel);
   }
 
   void write(Buffer& buffer, std::size_t offset, std::span<const std::byte> data) override {
+    refuseBorrowed(buffer);
     std::copy(data.begin(), data.end(), slice(buffer, offset, data.size(), "write"));
   }
   void read(const Buffer& buffer, std::size_t offset, std::span<std::byte> data) override {
@@ -157,6 +184,7 @@ class CpuDevice final : public Device {
   void fill(Buffer& buffer, std::size_t offset, std::size_t bytes, std::uint32_t value) override {
     if (bytes % 4 != 0 || offset % 4 != 0)
       fail(fmt::format("cpu: fill of {} bytes at {}: both are multiples of 4", bytes, offset));
+    refuseBorrowed(buffer);
     auto* words = reinterpret_cast<std::uint32_t*>(slice(buffer, offset, bytes, "fill"));
     const std::size_t count = bytes / 4, piece = kFillPiece / 4;
     spread(*crew_, static_cast<std::uint32_t>((count + piece - 1) / piece),

@@ -1,22 +1,34 @@
 // The events that a frame counts: one list for the kernels, the host, the rows and the docs.
 #pragma once
 
+#include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace tessera {
+
+/// How the counts of the parts that a frame was cut into become one count.
+enum class CounterMerge {
+  kSum,
+  kLargest,
+  kOnce,  ///< a sum over the batches of the first band: each band has all triangles
+};
 
 struct CounterDoc {
   std::string name;     ///< lowerCamelCase; kernels know it as kCount + UpperCamelCase
   std::string meaning;  ///< one line
   bool inKernels;       ///< counted by kernels; else by the host
   bool work = false;    ///< only under counters=work
+  CounterMerge merge = CounterMerge::kSum;
 };
 
 /// In pipeline order; the kernels' ones first, the index of each is its index in the counter buffer.
 const std::vector<CounterDoc>& counterDocs();
+/// Throws kFailure with the name where nothing counts it.
+const CounterDoc& counterDoc(std::string_view name);
 std::size_t kernelCounterCount();
-/// Index of a kernel counter.
+/// Index of a counter of the kernels. Throws kFailure with the name where no kernel counts it.
 std::size_t counterIndex(std::string_view name);
 
 }  // namespace tessera

@@ -68,6 +68,13 @@ class Device {
   /// `bytes` may be 0 (a buffer of one element's size is made). Contents are undefined. Throws kUnsupported beyond
   /// maxBufferBytes.
   virtual std::unique_ptr<Buffer> createBuffer(std::size_t bytes, std::string_view name) = 0;
+  /// A buffer that is this memory itself, for kernels to read: the memory stays the caller's, and has to be there and
+  /// unchanged until the buffer is destroyed. Null where the device cannot read the host's memory; the caller copies
+  /// then.
+  virtual std::unique_ptr<Buffer> borrow(std::span<const std::byte> memory, std::string_view name) {
+    static_cast<void>(memory), static_cast<void>(name);
+    return nullptr;
+  }
   virtual std::unique_ptr<Kernel> createKernel(const CompiledKernel& kernel) = 0;
 
   /// Copies host memory into a buffer. Ordered after what was recorded before.

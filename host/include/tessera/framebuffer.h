@@ -1,8 +1,13 @@
 // The visibility buffer and what is resolved from it, on the host.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
 #include <vector>
 
 namespace tessera {
@@ -16,6 +21,28 @@ struct ValueRange {
   float least = 0, most = 1;
 };
 
+enum class ChannelType { kFloat32, kUint32 };
+
+/// A named raster with 1 to 4 values a pixel: of a stream of the scene, or of a stage that makes one.
+struct Channel {
+  std::string name;
+  unsigned components = 1;                                            ///< values a pixel
+  std::variant<std::vector<float>, std::vector<std::uint32_t>> data;  ///< components * pixels() of them
+
+  ChannelType type() const { return data.index() == 0 ? ChannelType::kFloat32 : ChannelType::kUint32; }
+  /// Of a float32 channel.
+  const std::vector<float>& floats() const { return std::get<0>(data); }
+  std::vector<float>& floats() { return std::get<0>(data); }
+};
+
+/// One raster of a framebuffer, whichever member holds it.
+struct ChannelView {
+  std::string_view name;
+  ChannelType type;
+  unsigned components;
+  std::span<const std::byte> bytes;  ///< 4 * components * pixels
+};
+
 /// Row-major, row 0 at the top, width * height elements in each vector that is not empty.
 struct Framebuffer {
   std::uint32_t width = 0;
@@ -24,11 +51,19 @@ struct Framebuffer {
   std::vector<std::uint32_t> ids;   ///< triangle id or kNoTriangle; empty under commit=count
   std::vector<std::uint32_t> hits;  ///< triangles that cover the sample; only under commit=count
   std::vector<glm::vec3> colour;    ///< linear RGB, [0, 1]; only when shading was asked for
-  /// The scene's attribute, only where it has one; NaN (0x7fc00000) in empty pixels and where a vertex' value is not
-  /// finite.
-  std::vector<float> attribute = {};
+  /// One for each stream of the scene that is interpolated, under the stream's name and in the scene's order: float32,
+  /// NaN (0x7fc00000) in empty pixels and where a vertex' value is not finite.
+  std::vector<Channel> channels = {};
 
   std::size_t pixels() const { return std::size_t{width} * height; }
+  /// Null where there is no such channel.
+  const Channel* channel(std::string_view name) const;
+  /// All that there is but what is empty: depth, ids, hits, colour, then `channels`.
+  std::vector<ChannelView> views() const;
+  /// The channel of that name, made where there is none.
+  Channel& makeChannel(std::string_view name, ChannelType type, unsigned components);
+  /// The first channel of one float32 a pixel, which pictures show; empty where there is none.
+  std::span<const float> values() const;
 };
 
 }  // namespace tessera

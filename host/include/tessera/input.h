@@ -44,7 +44,7 @@ struct Mesh {
   std::vector<glm::dvec3> positions;  ///< as the file has them: of text in double, of binary data in its type
   std::vector<glm::vec3> normals;
   std::vector<Triangle> triangles;
-  std::vector<float> attribute;         ///< empty, or one a vertex: what was asked for, but for a coordinate
+  std::vector<Stream> streams;          ///< what was asked for, but for a coordinate, which the scene's are
   bool float32 = false;                 ///< the file's coordinates are float32: what made the file has rounded them
   std::vector<std::string> notes = {};  ///< what a user would not expect of this file: a line each, without its name
   std::uint64_t concavePolygons = 0;    ///< cut into triangles by ear clipping; the others are fans

@@ -58,11 +58,12 @@ std::vector<Piece> pieces(const Scene& scene, const Image& image, Counts* counts
 /// `measureDepth` also fills depthMaxAbs and depthMaxUlp (slower).
 Result render(const Scene& scene, const Image& image = {}, bool measureDepth = false);
 
-/// Values of a frame whose ids are there: the scene's attribute by the contract, in its float32 order. Replaces
-/// frame.attribute.
+/// Values of a frame whose ids are there: each stream of the scene that is interpolated, by the contract and in its
+/// float32 order. Replaces frame.channels.
 void interpolate(const Scene& scene, const Image& image, Framebuffer& frame);
 
-/// |A - exact value| over the pixels of a frame that show a triangle with finite values, in the attribute's units.
+/// |A - exact value| over the pixels of a frame that show a triangle with finite values, and over all streams that are
+/// interpolated, in their units.
 /// Exact is the contract's section Attributes in real numbers: the linear interpolation over the snapped triangle, or
 /// the perspective-correct one over the triangle in clip space, right to about 2^-100 of its terms.
 struct AttributeError {

@@ -1,4 +1,4 @@
-// Scene and variant -> the passes and switches that are needed, and why each other one is left out.
+// Scene and variant -> the stages and switches that are needed, and why each other one is left out.
 #pragma once
 
 #include <tessera/device.h>
@@ -6,24 +6,30 @@
 #include <tessera/variant.h>
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace tessera {
 
+/// What a plan says about one stage, or about a switch of a stage.
 struct PlanEntry {
-  std::string pass;  ///< a pass or a switch of one
+  std::string pass;  ///< the stage's name, or "STAGE: switch"
   bool kept = true;
   std::string why;  ///< one line
 };
 
+/// A plan describes the frames of one scene under one variant on one kind of device.
 struct Plan {
-  std::vector<PlanEntry> entries;  ///< in pipeline order
-  Variant resolved;                ///< a value for every axis
-  bool transform = true, clip = true, perspective = true, binned = true, clear = true, payload = false, resolve = false,
-       shade = false, attribute = false;
+  std::vector<PlanEntry> entries;   ///< in pipeline order
+  std::vector<std::string> stages;  ///< that a frame may dispatch, retries among them, in pipeline order
+  Variant resolved;                 ///< a value for every axis
+
+  /// Whether a frame may dispatch the stage.
+  bool runs(std::string_view stage) const;
 };
 
-/// Throws kUnsupported (device) or kUsage (axes that do not go together), with the reason and what would work.
+/// Throws kUnsupported for what the device cannot do and kUsage for axes that do not go together or do not go with the
+/// scene, with the reason and what would work.
 Plan makePlan(const Scene& scene, const Variant& variant, const DeviceInfo& device);
 
 }  // namespace tessera

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <compare>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 namespace tessera {
@@ -17,29 +19,43 @@ enum class AxisKind {
 };
 const char* kindName(AxisKind kind);  ///< "image", "implementation", "approximate"
 
-/// What a value asks of the device, and what the host has to do for it.
-enum Feature : unsigned {
-  kNeedsInt64 = 1,
-  kNeedsFloat64 = 2,
-  kNeedsAtomics64 = 4,
-  kNeedsCpu = 8,        ///< the CPU device
-  kNeedsVulkan = 16,    ///< a Vulkan device
-  kWritesTiles = 32,    ///< a commit that writes all pixels of its tiles: nothing has to be cleared
-  kResolves = 64,       ///< a commit whose words become depth and ids in `resolve`
-  kKeepsColours = 128,  ///< a commit that packs a colour of the triangle instead of its id
-  kTwoPasses = 256,     ///< a commit that rasterises twice
+/// What a value needs of a device.
+struct Needs {
+  bool int64 = false;        ///< 64-bit integers (DeviceInfo::int64)
+  bool float64 = false;      ///< 64-bit floats (DeviceInfo::float64)
+  bool atomicMin64 = false;  ///< 64-bit atomic min on buffers (DeviceInfo::atomicMin64)
+  bool cpu = false;          ///< the CPU device
+  bool vulkan = false;       ///< a Vulkan device
+  bool operator==(const Needs&) const = default;
+};
+
+/// What a commit asks of the host, and what it leaves behind.
+struct CommitTraits {
+  bool writesTiles = false;             ///< it writes every pixel of its tiles: nothing has to be cleared
+  bool wantsBins = false;               ///< it is at its best where pieces come by tiles
+  bool resolves = false;                ///< what it packs becomes depth and ids in the stage `resolve`
+  bool keepsColours = false;            ///< it packs a colour of the triangle in place of the triangle's id
+  bool keepsIds = true;                 ///< later stages find the triangle of each pixel
+  unsigned passes = 1;                  ///< times that all triangles go through the raster
+  std::uint64_t mostTriangles = ~0ull;  ///< that it can tell apart
+};
+
+/// How many iterations a lane of the raster takes for one entry of its tile. A tile is `across` cells wide:
+/// iterations <= perCell * across * across + perRow * across + fixed. A loop of n passes counts n + 1, with its last
+/// test.
+struct LoopBound {
+  std::uint64_t perCell = 0, perRow = 0, fixed = 0;
 };
 
 struct AxisValue {
   std::string name;
   std::string meaning;  ///< one line
-  std::string slang;    ///< what the generated module says for it; empty: a host path
+  std::string slang;    ///< what the generated module says for the value; empty: the host alone reads it
   AxisKind kind = AxisKind::kImplementation;
-  unsigned features = 0;    ///< of Feature
+  Needs needs = {};
   std::string source = {};  ///< paper or specification, where it is not the axis'
   std::string limits = {};  ///< bound of the error, largest scene: one line
-
-  bool has(unsigned feature) const { return (features & feature) != 0; }
+  std::variant<std::monostate, CommitTraits, LoopBound> traits = {};  ///< of a value of `commit`, of `traversal`
 };
 
 struct Axis {
@@ -62,6 +78,9 @@ const std::vector<Axis>& axes();
 const Axis& axis(std::string_view name);
 /// Throws kUsage, naming the values there are. The axis has names for values.
 const AxisValue& axisValue(std::string_view axis, std::string_view value);
+/// Of a value of the axis `commit`, and of a value of the axis `traversal`.
+const CommitTraits& commitTraits(std::string_view commit);
+const LoopBound& loopBound(std::string_view traversal);
 
 /// Values that go only with some values of another axis.
 struct AxisRule {
@@ -85,6 +104,11 @@ class Variant {
   bool has(std::string_view axis) const;
   /// The value, or `otherwise` where it is not set.
   std::string get(std::string_view axis, std::string_view otherwise = "") const;
+  /// The value of an axis that is set, as a number. Throws kFailure where it is none.
+  std::uint32_t number(std::string_view axis) const;
+  /// Whether the axis is set to `value`, which has to be one of the axis' values: kUsage otherwise.
+  bool is(std::string_view axis, std::string_view value) const;
+  bool isOn(std::string_view axis) const { return is(axis, "on"); }
   const std::map<std::string, std::string>& values() const { return values_; }
   std::string text() const;  ///< "axis=value axis=value" in axis order; "" when nothing is set
 

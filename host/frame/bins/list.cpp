@@ -1,0 +1,36 @@
+// THE list of binnings: the value of the axis, and the host half of it.
+#include <fmt/format.h>
+#include <tessera/error.h>
+
+#include <algorithm>
+
+#include "host/frame/bins/bins.h"
+#include "host/support/suggest.h"
+
+namespace tessera {
+namespace {
+
+struct Binning {
+  std::string name;
+  std::unique_ptr<Bins> (*make)();
+};
+
+const std::vector<Binning>& binnings() {
+  static const std::vector<Binning> list{{"none", makeNone},
+                                         {"aabb-scan", makeAabbScan},
+                                         {"queue", makeQueue},
+                                         {"exact", makeExact},
+                                         {"bitmask", makeBitmask}};
+  return list;
+}
+
+}  // namespace
+
+std::unique_ptr<Bins> makeBins(std::string_view name) {
+  const auto found = std::ranges::find(binnings(), name, &Binning::name);
+  if (found != binnings().end()) return found->make();
+  fail(
+      fmt::format("binning={}: it has no host half; {}", name, whatThereIs(name, namesOf(binnings(), &Binning::name))));
+}
+
+}  // namespace tessera

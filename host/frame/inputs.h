@@ -1,0 +1,16 @@
+// What a scene gives the kernels: its arrays, and the uniforms that are the same in all of a frame.
+#pragma once
+
+#include <tessera/scene.h>
+
+#include "host/frame/dispatcher.h"
+
+namespace tessera {
+
+/// Throws kUnsupported where the vertices do not fit the device's largest buffer.
+void giveScene(Dispatcher& dispatcher, const Scene& scene);
+
+/// The name of the buffer that holds a stream.
+std::string bufferOf(const Stream& stream);
+
+}  // namespace tessera

@@ -1,0 +1,24 @@
+// What comes back from the device: the channels of the framebuffer, and what stages wrote.
+#pragma once
+
+#include <tessera/rasterizer.h>
+
+#include <string>
+
+#include "host/frame/bins/bins.h"
+#include "host/frame/dispatcher.h"
+
+namespace tessera {
+
+/// The name of the buffer that holds the values of an interpolated stream.
+std::string valuesBufferOf(const Stream& stream);
+
+/// Appends the band's rows to each channel that the plan's kernels make.
+void readBand(Dispatcher& dispatcher, const Scene& scene, Framebuffer& image);
+
+/// Appends what the stages before the bins wrote, in an order that does not depend on scheduling.
+void keepSetup(Dispatcher& dispatcher, const Scene& scene, const Settings& settings, std::vector<StageOutput>& stages);
+/// Appends what the later stages wrote.
+void keepFrame(Dispatcher& dispatcher, const Scene& scene, const Bins& bins, std::vector<StageOutput>& stages);
+
+}  // namespace tessera

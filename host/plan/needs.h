@@ -1,0 +1,23 @@
+// Why a plan runs each stage or leaves it out: a function a stage, in pipeline order.
+#pragma once
+
+#include "host/plan/stages.h"
+
+namespace tessera {
+
+Need needClear(const PlanFacts& facts);
+Need needTransform(const PlanFacts& facts);
+Need needProject(const PlanFacts& facts);
+Need needSetup(const PlanFacts& facts);
+Need needPayload(const PlanFacts& facts);
+Need needBinCount(const PlanFacts& facts);
+Need needScanBlocks(const PlanFacts& facts);
+Need needScanAdd(const PlanFacts& facts);
+Need needBinInsert(const PlanFacts& facts);
+Need needRasterTiles(const PlanFacts& facts);
+Need needRasterItems(const PlanFacts& facts);
+Need needResolve(const PlanFacts& facts);
+Need needShade(const PlanFacts& facts);
+Need needAttribute(const PlanFacts& facts);
+
+}  // namespace tessera
