@@ -104,8 +104,8 @@ std::vector<Axis> vertexAxes() {
        "64-bit integers of setup, bins, edges and values",
        "Warren, Hacker's Delight, 2nd edition, 2012, section 8-2",
        {"setup", "bin-count", "bin-insert", "raster-tiles", "raster-items", "attribute"},
-       {{"native", "the device's own", include("wide_native"), kImplementation, kNeedsInt64},
-        {"two-word", "pairs of 32-bit words", include("wide_two_word")}},
+       {{"native", "the device's own", include("wide.native"), kImplementation, kNeedsInt64},
+        {"two-word", "pairs of 32-bit words", include("wide.two_word")}},
        "native where the device has 64-bit integers"},
   };
 }
@@ -120,7 +120,7 @@ std::vector<Axis> binAxes() {
        {{"none", "no bins: a lane rasterises a piece, or a 64 x 64 block of a larger one", "", kImplementation, 0,
          "Liu et al., FreePipe, I3D 2010"},
         {"aabb-scan", "no bins: each tile goes through the bounding boxes of all pieces",
-         type("Bins", "binning.scan", "BinScan"), kImplementation, 0, "", "refused beyond 2^32 boxes a frame"},
+         type("Bins", "binning.aabb_scan", "BinAabbScan"), kImplementation, 0, "", "refused beyond 2^32 boxes a frame"},
         {"queue", "each tile has a queue of `capacity` entries; what overflows is counted, and retried", lists,
          kImplementation, 0, "Laine and Karras, High-performance software rasterization on GPUs, HPG 2011"},
         {"exact", "count, prefix sum, scatter: two walks over the pieces, no capacity", lists, kImplementation, 0,

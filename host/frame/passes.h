@@ -24,7 +24,7 @@ class Passes {
   /// Compiles and loads what the plan's stages need and is not loaded yet.
   void prepare(const Plan& plan);
 
-  /// A field of the uniform block `Frame` of slang/layout.slang, for the dispatches that follow.
+  /// A field of the uniform block `Frame` of slang/records/layout.slang, for the dispatches that follow.
   void set(std::string_view field, std::uint32_t value) { uniforms_.insert_or_assign(std::string(field), value); }
   void set(std::string_view field, float value) { set(field, std::bit_cast<std::uint32_t>(value)); }
   std::uint32_t get(std::string_view field) const { return uniforms_.find(field)->second; }
@@ -64,7 +64,7 @@ class Passes {
     device_.fill(buffer(name), 4 * first, 4 * words, 0);
   }
 
-  static constexpr std::uint32_t kLanes = 64;  ///< slang/workgroup.slang has the same
+  static constexpr std::uint32_t kLanes = 64;  ///< slang/machine/workgroup.slang has the same
 
  private:
   Device& device_;

@@ -13,20 +13,20 @@ namespace tessera {
 
 const std::vector<Stage>& stages() {
   static const std::vector<Stage> list{
-      {"clear", "rasterizer/clear.slang", "clear"},
-      {"transform", "rasterizer/transform.slang", "transform"},
-      {"project", "rasterizer/transform.slang", "project"},
-      {"setup", "rasterizer/setup.slang", "setup"},
-      {"payload", "rasterizer/payload.slang", "colourTriangles"},
-      {"bin-count", "rasterizer/bin-count.slang", "binCount"},
-      {"scan-blocks", "rasterizer/scan.slang", "scanBlocks"},
-      {"scan-add", "rasterizer/scan.slang", "scanAdd"},
-      {"bin-insert", "rasterizer/bin-insert.slang", "binInsert"},
-      {"raster-tiles", "rasterizer/raster-tiles.slang", "rasterTiles"},
-      {"raster-items", "rasterizer/raster-items.slang", "rasterItems"},
-      {"resolve", "rasterizer/resolve.slang", "resolve"},
-      {"shade", "rasterizer/shade.slang", "shade"},
-      {"attribute", "rasterizer/attribute.slang", "interpolateAttribute"},
+      {"clear", "stages/clear.slang", "clear"},
+      {"transform", "stages/transform.slang", "transform"},
+      {"project", "stages/transform.slang", "project"},
+      {"setup", "stages/setup.slang", "setup"},
+      {"payload", "stages/payload.slang", "colourTriangles"},
+      {"bin-count", "stages/bin-count.slang", "binCount"},
+      {"scan-blocks", "stages/prefix-sum.slang", "scanBlocks"},
+      {"scan-add", "stages/prefix-sum.slang", "scanAdd"},
+      {"bin-insert", "stages/bin-insert.slang", "binInsert"},
+      {"raster-tiles", "stages/raster-tiles.slang", "rasterTiles"},
+      {"raster-items", "stages/raster-items.slang", "rasterItems"},
+      {"resolve", "stages/resolve.slang", "resolve"},
+      {"shade", "stages/shade.slang", "shade"},
+      {"attribute", "stages/attribute.slang", "interpolateAttribute"},
   };
   return list;
 }
