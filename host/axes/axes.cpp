@@ -164,7 +164,7 @@ std::vector<Axis> binAxes() {
 }
 
 std::vector<Axis> rasterAxes() {
-  const std::string int64 = include("edge.int64"), float32 = include("edge.float32");
+  const std::string int64 = include("edge.int64"), float32 = include("float32_edge");
   return {
       {"commit",
        "where a covered sample goes",

@@ -14,11 +14,10 @@
 namespace tessera {
 namespace {
 
-constexpr std::uint64_t kCornerBytes = 16, kPieceBytes = 40,
-                        kItemBytes = 8;  // slang/records/layout.slang: Corner, Piece, Item
+constexpr std::uint64_t kCornerBytes = 16, kPieceBytes = 40, kItemBytes = 8;  // layout.slang: Corner, Piece, Item
 constexpr std::uint64_t kMaxWord = 0xffffffff;                                // kernels index with 32 bits
 constexpr std::uint32_t kBlock = 64;          // pixels; bands begin on a row of blocks, and so of cells and tiles
-constexpr std::uint32_t kScanBlock = 1024;    // slang/stages/prefix-sum.slang: kBlock
+constexpr std::uint32_t kScanBlock = 1024;    // slang/stages/prefix-sum.slang: kChunk
 constexpr std::uint32_t kClippedPieces = 26;  // slang/geometry/clip.slang: kMaxCorners - 2
 constexpr std::uint64_t kSetupLoops =
     1024;  // iterations of a lane of setup beside its walks over blocks: at most 28 corners at six planes, 78 projected
