@@ -106,14 +106,15 @@ TEST_CASE("Imports are found as slangc finds them") {
   writeText(shop.slang / "axes/other-room.slang", "__include values.one_value;\n");
   writeText(shop.slang / "axes/values/one-value.slang", "implementing other_room;\n");
   writeText(shop.slang / "stages/many.slang",
-            "#include \"textual.slang\"\n  public import stages.deep.part_one;\n__exported import beside;\nimport in_room;\n// "
+            "#include \"textual.slang\"\n  public import stages.deep.part_one;\n__exported import beside;\nimport "
+            "in_room;\n// "
             "import unrelated_;\n");
   std::set<std::string> names;
   for (const auto& [path, text] : slangSources(shop.slang, shop.slang / "stages/many.slang", "import unrelated;\n"))
     names.insert(path.lexically_relative(shop.slang).string());
   CHECK(names == std::set<std::string>{"stages/many.slang", "textual.slang", "stages/deep/part-one.slang",
-                                       "step-size.slang", "stages/beside.slang", "unrelated.slang", "math/in-room.slang",
-"axes/other-room.slang", "axes/values/one-value.slang"});
+                                       "step-size.slang", "stages/beside.slang", "unrelated.slang",
+                                       "math/in-room.slang", "axes/other-room.slang", "axes/values/one-value.slang"});
 }
 
 TEST_CASE("A broken entry is built again") {
