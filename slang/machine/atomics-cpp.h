@@ -1,4 +1,4 @@
-// The atomics of atomics.slang in C++. Stands ahead of the C++ text that slangc writes.
+// The atomics of atomics.slang in C++. The host puts this text ahead of the C++ text that slangc writes.
 #include <sched.h>
 
 #include <cstdint>
@@ -12,8 +12,10 @@ template <typename T, typename V> static inline T tesseraAtomicOr(T* word, V val
 template <typename T, typename V> static inline T tesseraAtomicExchange(T* word, V value) {
   return __atomic_exchange_n(word, T(value), __ATOMIC_RELAXED);
 }
-// x86 has no atomic min: a compare-exchange loop that ends as soon as the word is no longer to be lowered, so it is bounded by
-// the number of values that other threads can write below this one's.
+// x86 has no atomic minimum, so this is a loop of compare-exchanges. The loop ends as soon as the word is not above
+// `value`. A compare-exchange fails only if another thread wrote to the word in between. So the number of iterations is
+// at most one more than the number of values above `value` that other threads write meanwhile. The maximum below is
+// alike.
 template <typename T, typename V> static inline T tesseraAtomicMin(T* word, V value) {
   T before = __atomic_load_n(word, __ATOMIC_RELAXED);
   while (T(value) < before &&
@@ -32,8 +34,9 @@ template <typename T, typename E, typename V> static inline T tesseraAtomicCompa
   return before;
 }
 
-// Whoever holds the lock leaves it after two loads and two stores, so others wait for a bounded number of holders; a
-// holder that the system has put aside is waited for without burning its core.
+// A thread that holds the lock gives it back after two loads and two stores, so a thread that waits does so for a
+// bounded number of holders. The system may have stopped the thread that holds the lock; a waiting thread therefore
+// yields its core now and then.
 template <typename T> static inline void tesseraLock(T* word) {
   for (int tries = 1; __atomic_exchange_n(word, T(1), __ATOMIC_ACQUIRE) != 0; ++tries)
     if (tries % 64 == 0) sched_yield();
