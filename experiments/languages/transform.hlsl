@@ -1,4 +1,4 @@
-// rasterizer/transform.slang and project.slang by hand, in HLSL: the same operations in the same order. One vertex a lane; on the CPU
+// slang/stages/transform.slang and slang/geometry/project.slang by hand, in HLSL: the same operations in the same order. One vertex a lane; on the CPU
 // one thread is the whole group, so it loops over the lanes.
 import settings;    // kClip, kPerspective, kSubPixelBits
 import workgroup;   // lanes and groups
@@ -10,7 +10,7 @@ struct Frame
     float halfWidth, halfHeight, guardX, guardY;
     float m00, m01, m02, m03, m10, m11, m12, m13, m20, m21, m22, m23, m30, m31, m32, m33;
 };
-struct Corner { int x, y; float z; uint flags; };   // slang/layout.slang
+struct Corner { int x, y; float z; uint flags; };   // slang/records/layout.slang
 static const uint kOutside = 1, kNonFinite = 2, kBehind = 4;
 static const float kSnapLimit = 16777216.0;
 

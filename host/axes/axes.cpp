@@ -120,8 +120,8 @@ std::vector<Axis> vertexAxes() {
        "64-bit integers of setup, bins, edges and values",
        "Warren, Hacker's Delight, 2nd edition, 2012, section 8-2",
        {"setup", "bin-count", "bin-insert", "raster-tiles", "raster-items", "attribute"},
-       {{"native", "the device's own", include("wide_native"), kImplementation, {.int64 = true}},
-        {"two-word", "pairs of 32-bit words", include("wide_two_word")}},
+       {{"native", "the device's own", include("wide.native"), kImplementation, {.int64 = true}},
+        {"two-word", "pairs of 32-bit words", include("wide.two_word")}},
        "native where the device has 64-bit integers"},
   };
 }
@@ -141,7 +141,7 @@ std::vector<Axis> binAxes() {
          "Liu et al., FreePipe, I3D 2010"},
         {"aabb-scan",
          "no bins: each tile goes through the bounding boxes of all pieces",
-         type("Bins", "binning.scan", "BinScan"),
+         type("Bins", "binning.aabb_scan", "BinAabbScan"),
          kImplementation,
          {},
          "",
@@ -206,7 +206,7 @@ std::vector<Axis> binAxes() {
 }
 
 std::vector<Axis> rasterAxes() {
-  const std::string int64 = include("edge.int64"), float32 = include("edge.float32");
+  const std::string int64 = include("edge.int64"), float32 = include("float32_edge");
   return {
       {"commit",
        "where a covered sample goes",
@@ -274,7 +274,7 @@ std::vector<Axis> rasterAxes() {
        "",
        kRaster,
        {{"off", "every piece is traversed", type("SizeClass", "size_class.off", "SizeClassOff")},
-        {"on", "one cell: tested at once; a covered block: filled; the others: traversed",
+        {"on", "one cell: tested at once; a covered rectangle of cells: filled; the others: traversed",
          type("SizeClass", "size_class.on", "SizeClassOn")}},
        "off",
        kTypes},
@@ -299,7 +299,7 @@ std::vector<Axis> rasterAxes() {
          "",
          kOneWalk},
         {"hierarchical",
-         "blocks of 32 x 32, of 16 x 16, then cells, each rejected or accepted whole first",
+         "squares of 32 x 32, of 16 x 16, then cells, each rejected or accepted whole first",
          type("Traversal", "traversal.hierarchical", "TraverseHierarchy"),
          kImplementation,
          {},

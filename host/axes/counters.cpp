@@ -24,7 +24,7 @@ const std::vector<CounterDoc>& counterDocs() {
       {"overflowed", "bin entries that did not fit and were not retried (overflow=drop)", true},
       {"largestBin", "pieces in the fullest tile", true, false, kLargest},
       {"evaluations", "cells whose edge functions were evaluated, not stepped (counters=work)", true, true},
-      {"looks", "cells and blocks that the edges classified (counters=work)", true, true},
+      {"looks", "cells and larger rectangles that the edges classified (counters=work)", true, true},
       {"tests", "samples tested against a triangle's edges (counters=work)", true, true},
       {"covered", "samples covered, each hit counted (counters=work)", true, true},
       {"atomics", "atomic operations on the frame (counters=work)", true, true},

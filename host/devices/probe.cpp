@@ -14,7 +14,7 @@
 namespace tessera {
 namespace {
 
-constexpr std::uint32_t kLanes = 64;  // slang/workgroup.slang
+constexpr std::uint32_t kLanes = 64;  // slang/machine/workgroup.slang
 constexpr std::uint32_t kRandomInputs = 1u << 14;
 constexpr const char* kDenormals = "denormals";
 constexpr std::uint32_t kIterations = 1u << 17;  // twice what lavapipe 22.3 runs
@@ -28,7 +28,7 @@ std::uint32_t bitsOf(float value) { return std::bit_cast<std::uint32_t>(value); 
 /// The smallest normal number among them: where it was rounded up to, a device that flushes may have seen a denormal.
 bool isDenormal(float value) { return value != 0 && std::abs(value) <= std::numeric_limits<float>::min(); }
 
-// ---- What the host makes of each operation of slang/probe.slang, in its order. Compiled without contraction.
+// ---- What the host makes of each operation of slang/stages/probe.slang, in its order. Compiled without contraction.
 
 std::uint32_t comparisons(float a, float b) {
   const std::array bits{(a < b), (a <= b), (a > b), (a >= b), (a == b), (a != b), bool{std::isfinite(a)}};
@@ -147,12 +147,13 @@ struct Runner {
   KernelCache& kernels;
   Route route;
 
-  /// Results of an entry point of probe.slang over `count` inputs, with one representation of Wide (a module's name).
+  /// Results of an entry point of probe.slang over `count` inputs, with one representation of Wide (a file under
+  /// slang/axes).
   Words run(const char* stage, const char* entry, std::uint32_t count, std::string_view operandsName,
             std::span<const std::byte> operands, std::size_t resultWords, std::uint32_t groups,
-            const std::string& wide = "wide_two_word") {
+            const std::string& wide = "wide.two_word") {
     const VariantModules modules{fmt::format("module settings;\n__include {};\n", wide), ""};
-    const auto kernel = device.createKernel(kernels.get({stage, "probe.slang", entry, route, modules, ""}));
+    const auto kernel = device.createKernel(kernels.get({stage, "stages/probe.slang", entry, route, modules, ""}));
     const auto in = device.createBuffer(operands.size(), operandsName);
     const auto out = device.createBuffer(resultWords * 4, "results");
     device.write(*in, 0, operands);
@@ -241,7 +242,7 @@ std::array<std::uint32_t, kWideRows.size()> wideExpected(std::int64_t a, std::in
           compared};
 }
 
-/// One representation of Wide (slang/fixed-point.slang); each result's row is its name and the operation.
+/// One representation of Wide (slang/math/fixed-point.slang); each result's row is its name and the operation.
 void runWide(Runner& runner, Report& report, const std::string& name, const std::string& module,
              const std::vector<std::int64_t>& inputs) {
   const auto count = static_cast<std::uint32_t>(inputs.size());
@@ -264,9 +265,9 @@ void runWide(Runner& runner, Report& report, const std::string& name, const std:
 
 void probeWide(Runner& runner, Report& report, std::uint32_t randomInputs) {
   const std::vector<std::int64_t> inputs = wideInputs(randomInputs);
-  runWide(runner, report, "two-word-", "wide_two_word", inputs);
+  runWide(runner, report, "two-word-", "wide.two_word", inputs);
   if (runner.device.info().int64)
-    runWide(runner, report, "int64-", "wide_native", inputs);
+    runWide(runner, report, "int64-", "wide.native", inputs);
   else
     report.results.push_back({"int64", false, false, "the device has no 64-bit integers; wide=two-word does without"});
 }

@@ -132,12 +132,13 @@ struct KernelCache::State {
     add(settings.slangc.version);
     if (!glsl)
       for (const std::string& flag : slangFlags(request.route)) add(flag);
+    for (const fs::path& folder : searchFolders(""))
+      add(folder.string());  // their order says which of two files is read
     for (const auto& [path, text] : sources)
       add(fs::absolute(path).lexically_normal().lexically_relative(settings.slangSources).string()), add(text);
     add(settings.glslang.version);
     if (request.route == Route::kCpp) {
-      const fs::path atomics = settings.slangSources / "atomics-cpp.h";
-      add(fs::exists(atomics) ? readText(atomics) : "");
+      add(atomicsText(settings.slangSources));
       add(settings.cxx.version);
       add(settings.cxx.targetMacros);
       for (const std::string& flag : cxxBaseFlags()) add(flag);

@@ -111,24 +111,18 @@ std::vector<std::string> slangCommand(const KernelRequest& request, const ToolIn
   writeInto(work / "settings.slang", request.modules.settings);
   writeInto(work / "variant.slang", request.modules.variant);
   const fs::path source = request.file.empty() ? slangSources / request.source : request.file;
-  std::vector<std::string> arguments{slangc.path.string(), source.string(), "-I", work.string(), "-I",
-                                     slangSources.string()};
+  std::vector<std::string> arguments{slangc.path.string(), source.string(), "-I", work.string()};
+  for (const fs::path& folder : searchFolders(slangSources)) append(arguments, {"-I", folder.string()});
   append(arguments, flags);
   append(arguments, {"-entry", request.entry, "-stage", "compute", "-o", made.string()});
   return arguments;
-}
-
-/// Slang's C++ with the functions that it calls.
-std::string wholeCpp(const fs::path& slangSources, const std::string& generated) {
-  const fs::path atomics = slangSources / "atomics-cpp.h";
-  return (fs::exists(atomics) ? readText(atomics) : "") + generated;
 }
 
 /// Slang's C++ to a shared object.
 void compileCpp(const KernelRequest& request, const CompileSettings& settings, const std::string& generated,
                 const fs::path& work) {
   const fs::path source = work / "kernel.cpp", made = work / binaryName(request.route);
-  writeInto(source, (settings.boundsChecks ? kBoundsChecks : "") + wholeCpp(settings.slangSources, generated));
+  writeInto(source, (settings.boundsChecks ? kBoundsChecks : "") + atomicsText(settings.slangSources) + generated);
   std::vector<std::string> arguments{settings.cxx.path.string()};
   append(arguments, cxxBaseFlags());
   append(arguments, settings.cxxFlags);
@@ -235,14 +229,14 @@ Written writtenBySlang(const KernelRequest& request, const std::string& target, 
   std::vector<std::string> flags{"-target", target, "-fp-mode", "precise", "-line-directive-mode", "none"};
   if (cpp) flags = slangFlags(request.route);
   if (target == "spirv") flags = slangFlags(request.route);
-  if (target == "wgsl") flags.push_back("-DTESSERA_WGSL");  // slang/atomics.slang
+  if (target == "wgsl") flags.push_back("-DTESSERA_WGSL");  // slang/machine/atomics.slang
   // Buffers are called as in Slang; in C++ and CUDA they are members, which keep their numbers.
   for (const char* const unmangled : {"wgsl", "glsl", "hlsl", "metal"})
     if (target == unmangled) flags.push_back("-no-mangle");
   flags.insert(flags.end(), {"-reflection-json", reflection.string()});
   try {
     runCompiler(request, slangCommand(request, slangc, slangSources, flags, work.path(), made), made);
-    std::string text = cpp ? wholeCpp(slangSources, readText(made)) : readText(made);
+    std::string text = cpp ? atomicsText(slangSources) + readText(made) : readText(made);
     // WGSL reserves this word (W3C, WebGPU Shading Language, section 16.2).
     if (target == "wgsl") text = std::regex_replace(text, std::regex(R"(\battribute\b)"), "attribute_0");
     return {std::move(text), readText(reflection)};

@@ -61,6 +61,18 @@ std::vector<fs::path> namedBy(std::string_view line) {
 
 }  // namespace
 
+std::vector<fs::path> searchFolders(const fs::path& root) {
+  std::vector<fs::path> folders;
+  for (const char* const room : {"machine", "math", "records", "geometry", "axes"}) folders.push_back(root / room);
+  folders.push_back(root);
+  return folders;
+}
+
+std::string atomicsText(const fs::path& root) {
+  const fs::path header = root / "machine/atomics-cpp.h";
+  return fs::exists(header) ? readText(header) : "";
+}
+
 std::string readText(const fs::path& path, ExitCode refusal) {
   const auto refuse = [&](const std::string& why, ExitCode code) {
     throw Error(code == ExitCode::kUsage ? refusal : code, fmt::format("{}: {}", path.string(), why));
@@ -79,11 +91,14 @@ std::map<fs::path, std::string> slangSources(const fs::path& root, const fs::pat
                                              const std::string& generated) {
   std::map<fs::path, std::string> sources;
   std::vector<fs::path> pending{entry.lexically_normal()};
+  std::vector<fs::path> folders = searchFolders(root);
+  folders.emplace_back();  // for the folder of the file in hand
   const auto scan = [&](const std::string& text, const fs::path& beside) {
+    folders.back() = beside;
     for (std::size_t at = 0; at < text.size();) {
       const std::size_t end = std::min(text.find('\n', at), text.size());
       for (const fs::path& name : namedBy(std::string_view(text).substr(at, end - at)))
-        for (const fs::path& folder : {beside, root})
+        for (const fs::path& folder : folders)
           if (const fs::path file = (folder / name).lexically_normal(); !sources.count(file) && isFile(file))
             pending.push_back(file);
       at = end + 1;

@@ -6,16 +6,25 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <vector>
 
 namespace tessera {
 
+/// Folders under `root` in which slangc looks for an imported module, in this order: each room of slang/README.md that
+/// kernels import from, then `root` itself. They need not exist.
+std::vector<std::filesystem::path> searchFolders(const std::filesystem::path& root);
+
 /// Path -> text of `entry` and of every file that it, or the generated modules' text, names by import, __include,
 /// implementing or #include, transitively. `import a.b_c` is a/b-c.slang or a/b_c.slang, beside the importing file or
-/// under `root`; all that exist are taken, so the set may hold more than slangc reads, never less (the compiler checks
-/// that against slangc's own list). Throws kUsage if one of them cannot be read.
+/// under one of searchFolders(root); all that exist are taken, so the set may hold more than slangc reads, never less
+/// (the compiler checks that against slangc's own list). Throws kUsage if one of them cannot be read.
 std::map<std::filesystem::path, std::string> slangSources(const std::filesystem::path& root,
                                                           const std::filesystem::path& entry,
                                                           const std::string& generated);
+
+/// The C++ text that stands ahead of what slangc writes in C++: machine/atomics-cpp.h under `root`, or "" where that
+/// file does not exist. Throws as readText() does.
+std::string atomicsText(const std::filesystem::path& root);
 
 /// Whole file. Throws `refusal` if the name leads to no file or to one that may not be read: kUsage is right where a
 /// user named it. kFailure for a shortage.

@@ -59,7 +59,7 @@ void checkGroup(const CompiledKernel& users, const KernelInterface& own, const s
     failUnsupported(
         fmt::format("{}: groups of {} threads; on the CPU device one thread is the group: take kThreadsPerGroup and "
                     "kLanesPerThread "
-                    "of slang/workgroup.slang, or [numthreads(1, 1, 1)] and a loop where TESSERA_CPP is defined, or a "
+                    "of the module workgroup, or [numthreads(1, 1, 1)] and a loop where TESSERA_CPP is defined, or a "
                     "Vulkan device",
                     who, sizeText(size)));
   failUsage(fmt::format("{}: groups of {} threads; the stage's are {}", who, sizeText(size), sizeText(own.groupSize)));

@@ -22,20 +22,20 @@ const std::vector<Stage>& stages() {
   using enum Moment;
   using enum Extent;
   static const std::vector<Stage> list{
-      {"clear", "rasterizer/clear.slang", "clear", kBand, kPixels, kLaneEach, needClear},
-      {"transform", "rasterizer/transform.slang", "transform", kBand, kVertices, kLaneEach, needTransform},
-      {"project", "rasterizer/transform.slang", "project", kBand, kVertices, kLaneEach, needProject},
-      {"setup", "rasterizer/setup.slang", "setup", kDriven, kTriangles, kLaneEach, needSetup},
-      {"payload", "rasterizer/payload.slang", "colourTriangles", kBatch, kTriangles, kLaneEach, needPayload},
-      {"bin-count", "rasterizer/bin-count.slang", "binCount", kDriven, kWorkItems, kLaneEach, needBinCount},
-      {"scan-blocks", "rasterizer/scan.slang", "scanBlocks", kDriven, kScanGroups, kGroupEach, needScanBlocks},
-      {"scan-add", "rasterizer/scan.slang", "scanAdd", kDriven, kScanGroups, kGroupEach, needScanAdd},
-      {"bin-insert", "rasterizer/bin-insert.slang", "binInsert", kDriven, kWorkItems, kLaneEach, needBinInsert},
-      {"raster-tiles", "rasterizer/raster-tiles.slang", "rasterTiles", kDriven, kTiles, kGroupEach, needRasterTiles},
-      {"raster-items", "rasterizer/raster-items.slang", "rasterItems", kDriven, kWorkItems, kLaneEach, needRasterItems},
-      {"resolve", "rasterizer/resolve.slang", "resolve", kRaster, kPixels, kLaneEach, needResolve},
-      {"shade", "rasterizer/shade.slang", "shade", kVisible, kPixels, kLaneEach, needShade},
-      {"attribute", "rasterizer/attribute.slang", "interpolateAttribute", kStreams, kPixels, kLaneEach, needAttribute},
+      {"clear", "stages/clear.slang", "clear", kBand, kPixels, kLaneEach, needClear},
+      {"transform", "stages/transform.slang", "transform", kBand, kVertices, kLaneEach, needTransform},
+      {"project", "stages/transform.slang", "project", kBand, kVertices, kLaneEach, needProject},
+      {"setup", "stages/setup.slang", "setup", kDriven, kTriangles, kLaneEach, needSetup},
+      {"payload", "stages/payload.slang", "colourTriangles", kBatch, kTriangles, kLaneEach, needPayload},
+      {"bin-count", "stages/bin-count.slang", "binCount", kDriven, kWorkItems, kLaneEach, needBinCount},
+      {"scan-blocks", "stages/prefix-sum.slang", "scanBlocks", kDriven, kScanGroups, kGroupEach, needScanBlocks},
+      {"scan-add", "stages/prefix-sum.slang", "scanAdd", kDriven, kScanGroups, kGroupEach, needScanAdd},
+      {"bin-insert", "stages/bin-insert.slang", "binInsert", kDriven, kWorkItems, kLaneEach, needBinInsert},
+      {"raster-tiles", "stages/raster-tiles.slang", "rasterTiles", kDriven, kTiles, kGroupEach, needRasterTiles},
+      {"raster-items", "stages/raster-items.slang", "rasterItems", kDriven, kWorkItems, kLaneEach, needRasterItems},
+      {"resolve", "stages/resolve.slang", "resolve", kRaster, kPixels, kLaneEach, needResolve},
+      {"shade", "stages/shade.slang", "shade", kVisible, kPixels, kLaneEach, needShade},
+      {"attribute", "stages/attribute.slang", "interpolateAttribute", kStreams, kPixels, kLaneEach, needAttribute},
   };
   return list;
 }

@@ -73,8 +73,8 @@ def shortCompiler(text):
 
 
 def constants():
-  cell = constant("layout.slang", "kCell")
-  return {"cell": quantity(cell), "lanes": quantity(cell * cell), "subPixels": quantity(constant("layout.slang", "kSubPixels")),
+  cell = constant("records/layout.slang", "kCell")
+  return {"cell": quantity(cell), "lanes": quantity(cell * cell), "subPixels": quantity(constant("records/layout.slang", "kSubPixels")),
           "draws": quantity(ratios.kDraws), "confidence": share(confidence(), 1)}
 
 

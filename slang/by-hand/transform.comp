@@ -1,21 +1,21 @@
-// rasterizer/transform.slang and project.slang by hand, in GLSL: the same operations in the same order, each float result
-// `precise`, so that no driver contracts them. One vertex a lane.
+// stages/transform.slang and geometry/project.slang by hand, in GLSL: the same operations in the same order. Each float
+// result is `precise`, so no driver contracts two operations into one. A lane does one vertex.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "settings.glsl"  // kClip, kPerspective, kSubPixelBits
 
 layout(local_size_x = 64) in;
 
-// Bound by name: of `frame` only what is used here.
+// The host binds by name, so `frame` needs only the fields that are used here.
 layout(std140, binding = 0) uniform Frame {
     uint vertexCount;
     float halfWidth, halfHeight, guardX, guardY;
     float m00, m01, m02, m03, m10, m11, m12, m13, m20, m21, m22, m23, m30, m31, m32, m33;
 } frame;
 
-struct Corner { int x, y; float z; uint flags; };  // slang/layout.slang
+struct Corner { int x, y; float z; uint flags; };  // slang/records/layout.slang
 const uint kOutside = 1, kNonFinite = 2, kBehind = 4;
-const uint kGroupRow = 32768;                      // slang/workgroup.slang
+const uint kGroupRow = 32768;                      // slang/machine/workgroup.slang
 const float kSnapLimit = 16777216.0;
 
 layout(std430, binding = 1) readonly buffer Positions { float positions[]; };
@@ -24,7 +24,7 @@ layout(std430, binding = 3) writeonly buffer Corners { Corner corners[]; };
 
 bool isFinite(float a) { return (floatBitsToUint(a) & 0x7f800000u) != 0x7f800000u; }
 
-// Nearest integer, ties to even, for |a| < 2^24.
+// The integer nearest to a, ties to even, for |a| < 2^24.
 int nearestEven(float a)
 {
     const float whole = floor(a);
@@ -33,7 +33,8 @@ int nearestEven(float a)
     return n + (int(part > 0.5) | (int(part == 0.5) & n & 1));
 }
 
-// A position in pixels to the grid of 2^-kSubPixelBits pixels, in 1/256 pixel. The grid of 0 bits is that of the samples.
+// A position in pixels to the nearest point of the grid of 2^-kSubPixelBits pixels, in 1/256 pixel. Where kSubPixelBits
+// is 0, the points of the grid are the samples.
 int snap(float s)
 {
     if (kSubPixelBits == 0) {

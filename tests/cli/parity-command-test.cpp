@@ -40,7 +40,7 @@ TEST_CASE("A user's kernel that is wrong everywhere has its stage named and its 
   desk.write(
       "mine.slang",
       changed(
-          desk, "rasterizer/setup.slang", "    storePiece(p, bounds, slot);",
+          desk, "stages/setup.slang", "    storePiece(p, bounds, slot);",
           "    Piece q = p;\n    if ((q.x0 & 4095) < 512)\n        q.z0 = 0.0f;\n    storePiece(q, bounds, slot);"));
   const auto outcome = desk.tessera(
       "parity 'generate:icosphere?level=2' --size 64x64 --device cpu --kernel setup=mine.slang --replay found.replay");
@@ -62,8 +62,8 @@ TEST_CASE("A user's kernel that is wrong everywhere has its stage named and its 
 TEST_CASE("A setting that is wrong everywhere is named and the replay does not go into the working folder") {
   Desk desk;
   fs::copy(TESSERA_SOURCE_DIR "/slang", desk.path() / "slang", fs::copy_options::recursive);
-  desk.write("slang/traversal/scanline.slang",
-             changed(desk, "traversal/scanline.slang", "                visitor.visit(column,",
+  desk.write("slang/axes/traversal/scanline.slang",
+             changed(desk, "axes/traversal/scanline.slang", "                visitor.visit(column,",
                      "                if (column % 8 == 3)\n                    continue;\n                "
                      "visitor.visit(column,"));
   const auto outcome = desk.tessera(

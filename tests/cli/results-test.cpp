@@ -145,11 +145,11 @@ TEST_CASE("Parity names the first stage that differs") {
   Desk desk;
   // A transform that is right on the CPU alone. The program takes its kernels from this folder.
   std::filesystem::copy(TESSERA_SOURCE_DIR "/slang", desk.path() / "slang", std::filesystem::copy_options::recursive);
-  std::string transform = desk.read("slang/rasterizer/transform.slang");
+  std::string transform = desk.read("slang/stages/transform.slang");
   const std::string store = "clipSpace[v] = c;";
   REQUIRE(transform.find(store) != std::string::npos);
   transform.insert(transform.find(store), "\n#ifndef TESSERA_CPP\n c.x = c.x + 0.25f;\n#endif\n");
-  desk.write("slang/rasterizer/transform.slang", transform);
+  desk.write("slang/stages/transform.slang", transform);
 
   const auto outcome = desk.tessera("parity 'generate:icosphere?level=0' --size 64x64 --replay found.replay",
                                     "TESSERA_SLANG_SOURCES=slang");

@@ -116,13 +116,13 @@ TEST_CASE("A cell's command does what the cell does from the sweep's folder") {
              "title = \"T\"\nquestion = \"Q\"\nsizes = [[40, 30]]\nthreads = [1]\nrounds = 3\nrepeats = 2\n[scenes]\n"
              "values = {source = \"two o'clock.obj\", attribute = \"z\", range = [-1, 0.5]}\n"
              "[set]\nsub-pixel = 4\n[axes]\ncommit = [\"depth32+id32\"]\n[kernels]\nsetup = [\"" TESSERA_SOURCE_DIR
-             "/slang/rasterizer/setup.slang\"]\n");
+             "/slang/stages/setup.slang\"]\n");
   const Sweep sweep = readSweep(desk.path() / "a.toml");
   const std::string command = cellCommand(sweep, cells(sweep)[0]);
   CHECK(command ==
         "tessera render 'two o'\\''clock.obj' --size 40x30 --device cpu --threads 1 --set sub-pixel=4 --set "
         "commit=depth32+id32 --kernel setup=" TESSERA_SOURCE_DIR
-        "/slang/rasterizer/setup.slang --attribute z --range -1,0.5 --repeat 6 --error --json -");
+        "/slang/stages/setup.slang --attribute z --range -1,0.5 --repeat 6 --error --json -");
   const auto outcome = desk.tessera(command.substr(std::string("tessera ").size()));
   INFO(outcome.err);
   CHECK(outcome.code == 0);

@@ -96,7 +96,7 @@ def tryAll(desk):
     check(desk.has(f"{device}.png"), said)
   desk.run("compare", "cpu.exr", "vulkan.exr")
   # A kernel of one's own is compiled now: slangc, the sources and the C++ compiler are found.
-  source = (prefix / "share/tessera/slang/rasterizer/transform.slang").read_text()
+  source = (prefix / "share/tessera/slang/stages/transform.slang").read_text()
   desk.write("mine.slang", source + f"// {work}\n")
   desk.run("render", "generate:grid", "--size", "32x32", "-o", "own.png", "--kernel", "transform=mine.slang")
   desk.run("kernels", "--emit", "wgsl", "emitted")

@@ -25,7 +25,7 @@ TEST_CASE("A Slang error comes with its place and message and the variant") {
 
 TEST_CASE("A C++ error comes with the compiler's message") {
   const Workshop shop;
-  writeText(shop.slang / "atomics-cpp.h", "int tesseraBroken() { return undeclaredThing; }\n");
+  writeText(shop.slang / "machine/atomics-cpp.h", "int tesseraBroken() { return undeclaredThing; }\n");
   const std::string line = lineOf(ExitCode::kFailure, [&] { shop.open().get(scaleRequest()); });
   CHECK(contains(line, "[step=1]"));
   CHECK(contains(line, "kernel.cpp:1"));
@@ -35,8 +35,8 @@ TEST_CASE("A C++ error comes with the compiler's message") {
 TEST_CASE("Missing sources are named") {
   const Workshop shop;
   KernelRequest request = scaleRequest();
-  request.source = "rasterizer/none.slang";
-  CHECK(contains(lineOf(ExitCode::kUsage, [&] { shop.open().get(request); }), "rasterizer/none.slang"));
+  request.source = "stages/none.slang";
+  CHECK(contains(lineOf(ExitCode::kUsage, [&] { shop.open().get(request); }), "stages/none.slang"));
   CHECK(contains(lineOf(ExitCode::kUsage,
                         [&] {
                           KernelCache({shop.cache, shop.slang / "no-such-folder", false, ""});

@@ -65,7 +65,7 @@ TEST_CASE("Whatever a kernel is made of changes its key and nothing else does") 
   const auto isNew = [&](const CompiledKernel& kernel) { return hashes.insert(kernel.hash).second; };
   const auto get = [&](const KernelRequest& request = scaleRequest()) { return shop.open().get(request); };
   const std::string step = readText(shop.slang / "step-size.slang"),
-                    scale = readText(shop.slang / "rasterizer/scale.slang");
+                    scale = readText(shop.slang / "stages/scale.slang");
 
   CHECK(isNew(get()));
   CHECK_FALSE(isNew(get()));
@@ -81,27 +81,40 @@ TEST_CASE("Whatever a kernel is made of changes its key and nothing else does") 
   CHECK(isNew(get()));
   writeText(shop.slang / "step-size.slang", step);
   CHECK_FALSE(isNew(get()));
-  writeText(shop.slang / "rasterizer/scale.slang", scale + "// the file itself changed\n");
+  writeText(shop.slang / "stages/scale.slang", scale + "// the file itself changed\n");
   CHECK(isNew(get()));
-  writeText(shop.slang / "rasterizer/scale.slang", scale);
-  writeText(shop.slang / "atomics-cpp.h", "// stands ahead of the C++\n");
+  writeText(shop.slang / "stages/scale.slang", scale);
+  // A module in a room of the sources, which is found by its name alone.
+  writeText(shop.slang / "geometry/in-room.slang", "module in_room;\n");
+  writeText(shop.slang / "stages/scale.slang", "import in_room;\n" + scale);
+  CHECK(isNew(get()));
+  writeText(shop.slang / "geometry/in-room.slang", "module in_room; // changed\n");
+  CHECK(isNew(get()));
+  CHECK_FALSE(isNew(get()));
+  writeText(shop.slang / "stages/scale.slang", scale);
+  writeText(shop.slang / "machine/atomics-cpp.h", "// stands ahead of the C++\n");
   CHECK(isNew(get()));
   CHECK_FALSE(isNew(get(scaleRequest(Route::kSpirv))));
 }
 
 TEST_CASE("Imports are found as slangc finds them") {
   const Workshop shop;
-  writeText(shop.slang / "rasterizer/deep/part-one.slang", "import step_size;\n");
+  writeText(shop.slang / "stages/deep/part-one.slang", "import step_size;\n");
   writeText(shop.slang / "textual.slang", "static const int kText = 1;\n");
-  writeText(shop.slang / "rasterizer/beside.slang", "module beside;\n");
-  writeText(shop.slang / "rasterizer/many.slang",
-            "#include \"textual.slang\"\n  public import rasterizer.deep.part_one;\n__exported import beside;\n// "
+  writeText(shop.slang / "stages/beside.slang", "module beside;\n");
+  writeText(shop.slang / "math/in-room.slang", "import other_room;\n");
+  writeText(shop.slang / "axes/other-room.slang", "__include values.one_value;\n");
+  writeText(shop.slang / "axes/values/one-value.slang", "implementing other_room;\n");
+  writeText(shop.slang / "stages/many.slang",
+            "#include \"textual.slang\"\n  public import stages.deep.part_one;\n__exported import beside;\nimport "
+            "in_room;\n// "
             "import unrelated_;\n");
   std::set<std::string> names;
-  for (const auto& [path, text] : slangSources(shop.slang, shop.slang / "rasterizer/many.slang", "import unrelated;\n"))
+  for (const auto& [path, text] : slangSources(shop.slang, shop.slang / "stages/many.slang", "import unrelated;\n"))
     names.insert(path.lexically_relative(shop.slang).string());
-  CHECK(names == std::set<std::string>{"rasterizer/many.slang", "textual.slang", "rasterizer/deep/part-one.slang",
-                                       "step-size.slang", "rasterizer/beside.slang", "unrelated.slang"});
+  CHECK(names == std::set<std::string>{"stages/many.slang", "textual.slang", "stages/deep/part-one.slang",
+                                       "step-size.slang", "stages/beside.slang", "unrelated.slang",
+                                       "math/in-room.slang", "axes/other-room.slang", "axes/values/one-value.slang"});
 }
 
 TEST_CASE("A broken entry is built again") {

@@ -29,7 +29,7 @@ Workshop::Workshop()
   shared.cxx();
   fs::create_directories(cache);
   fs::copy_file(shared.folder() / "tools.json", cache / "tools.json");
-  writeText(slang / "rasterizer/scale.slang", R"(import step_size;
+  writeText(slang / "stages/scale.slang", R"(import step_size;
 struct Frame { uint count; float factor; };
 ConstantBuffer<Frame> frame;
 StructuredBuffer<float> values;
@@ -54,7 +54,7 @@ KernelCache Workshop::open(bool boundsChecks, const std::string& flags) const {
 }
 
 KernelRequest scaleRequest(Route route, const std::string& variant) {
-  return {"scale", "rasterizer/scale.slang", "scaleAll", route, {"", variant}, "step=1"};
+  return {"scale", "stages/scale.slang", "scaleAll", route, {"", variant}, "step=1"};
 }
 
 std::size_t countFiles(const fs::path& folder, const std::string& ending) {

@@ -27,7 +27,7 @@ struct Workshop {
   TemporaryFolder folder;
   std::filesystem::path slang, cache;
 
-  /// Sources: rasterizer/scale.slang (entry scaleAll: results[i] = (values[i] * frame.factor + step()) / 3), which
+  /// Sources: stages/scale.slang (entry scaleAll: results[i] = (values[i] * frame.factor + step()) / 3), which
   /// imports step_size, which is step-size.slang, which imports the variant module; unrelated.slang is imported by
   /// none.
   Workshop();

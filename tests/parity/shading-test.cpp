@@ -96,7 +96,7 @@ PLACE_TEST_CASE("Smooth normals are perspective-correct", "[shading]") {
         (n[0] * toEye[0] + n[1] * toEye[1] + n[2] * toEye[2]) / (size * std::hypot(toEye[0], toEye[1], toEye[2]));
     const double lit = (n[0] * light[0] + n[1] * light[1] + n[2] * light[2]) / size * (facing < 0 ? -1 : 1);
     const double expected =
-        0.04 + 0.26 * std::abs(facing) + 0.7 * std::max(lit, 0.0);  // slang/rasterizer/shade.slang: lambert
+        0.04 + 0.26 * std::abs(facing) + 0.7 * std::max(lit, 0.0);  // slang/stages/shade.slang: lambert
     ++checked;
     off += std::abs(image.colour[k].x / 0.62 - expected) > 0.001;
   }

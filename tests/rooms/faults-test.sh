@@ -5,7 +5,7 @@ here=$1 source=$2
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 mkdir "$work/experiments"
-cp -r "$source/host" "$source/datasets" "$work"
+cp -r "$source/host" "$source/datasets" "$source/slang" "$work"
 cp -r "$source/experiments/harness" "$work/experiments"
 python3 "$here/rooms-test.py" "$work"
 broken() { # file, line that it gets, what the test has to say
@@ -27,3 +27,15 @@ broken host/include/tessera/error.h '#include <tessera/scene.h>
 #include <nlohmann/json.hpp>' 'host/include/tessera/error.h: a public header, and includes nlohmann'
 broken host/include/tessera/framebuffer.h '#include <tessera/rasterizer.h>' 'a circle of includes: '
 broken datasets/text.h '#include "datasets/no-such.h"' 'datasets/text.h: includes datasets/no-such.h, which is not there'
+broken slang/math/exact-math.slang 'import layout;' 'slang-math imports layout, which reads slang/records/layout.slang of slang-records'
+broken slang/machine/workgroup.slang '__exported import fixed_point;' 'slang-machine imports fixed_point, which reads slang/math/fixed-point.slang'
+broken slang/geometry/coverage.slang 'import variant;' 'slang-geometry imports variant, which reads slang/axes/'
+broken slang/axes/commit/count.slang 'public import resolve;' 'slang-axes imports resolve, which reads slang/stages/resolve.slang'
+broken slang/axes/binning/lists.slang '#include "stages/clear.slang"' 'slang-axes imports stages/clear.slang, which reads slang/stages/clear.slang'
+broken slang/geometry/clip.slang 'import project;' 'a circle of imports: '
+broken slang/geometry/work.slang 'import no_such;' 'slang/geometry/work.slang: imports no_such, which is not there'
+broken slang/geometry/work.slang '#ifdef TESSERA_CPP
+#endif' 'slang/geometry/work.slang: knows its target (TESSERA_CPP)'
+broken slang/geometry/work.slang '[numthreads(1, 1, 1)] void work() {}' 'slang/geometry/work.slang: an entry point, and not in slang-stages'
+broken slang/axes/edge/int64.slang 'implementing settings;' 'slang/axes/edge/int64.slang: a part of settings, and not in slang-wide'
+broken slang/axes/cells.slang 'module work;' 'a second module work, beside '

@@ -1,4 +1,5 @@
-"""Reads the includes of the library, the harness and the command, and says which of them layers.txt does not allow.
+"""Reads the includes of the library, the harness and the command, and the imports of the kernels, and says which of them
+layers.txt does not allow.
 
 usage: rooms-test.py SOURCE [LAYERS]
 """
@@ -11,6 +12,12 @@ INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<(tessera/[^>]+)>)', re.MU
 # A public header is read by programs that have none of these.
 FOREIGN = re.compile(r'^\s*#\s*include\s*[<"](vulkan|OpenMesh|OpenImageIO|Imath|OpenEXR|nlohmann|CLI|fmt|tbb|toml\+\+)[/.]', re.MULTILINE)
 
+IMPORT = re.compile(r'^\s*(?:public\s+|__exported\s+)*(?:import|__include)\s+"?([\w./-]+)"?\s*;', re.MULTILINE)
+PART = re.compile(r'^\s*implementing\s+(\w+)\s*;', re.MULTILINE)
+GENERATED = ("settings", "variant")  # by the host, of constants and of the files that are parts of them
+TARGET = re.compile(r'\bTESSERA_CPP\b|\bTESSERA_WGSL\b|__target_switch|__intrinsic_asm|__requirePrelude|__target_intrinsic')
+ENTRY = re.compile(r'\[\s*numthreads\s*\(')
+
 
 def rooms_of(layers):
     """Room to (folder, the rooms that it may include)."""
@@ -22,6 +29,8 @@ def rooms_of(layers):
         unknown = [word for word in words[2:] if word not in rooms]
         if unknown:
             sys.exit(f"{layers}: {words[0]} may include {unknown[0]}, which is not a room above that line")
+        if words[0] in rooms:
+            sys.exit(f"{layers}: {words[0]} has two lines")
         rooms[words[0]] = (words[1], {words[0], *words[2:]})
     return rooms
 
@@ -40,7 +49,7 @@ def circle(includes):
             return [*way[way.index(path):], path]
         if path in done:
             return None
-        for target in includes.get(path, ()):
+        for target in sorted(includes.get(path, ())):
             found = walk(target, [*way, path])
             if found:
                 return found
@@ -54,11 +63,9 @@ def circle(includes):
     return None
 
 
-def main():
-    source = pathlib.Path(sys.argv[1])
-    layers = pathlib.Path(sys.argv[2]) if len(sys.argv) > 2 else pathlib.Path(__file__).with_name("layers.txt")
-    rooms = rooms_of(layers)
-    faults, includes = [], {}
+def read_cpp(source, rooms, faults):
+    """File of the host to the files that it includes."""
+    includes = {}
     for top in ("host", "datasets", "experiments/harness"):
         for file in sorted((source / top).rglob("*")):
             path = file.relative_to(source).as_posix()
@@ -66,7 +73,7 @@ def main():
                 continue
             room = room_of(path, rooms)
             if room is None:
-                faults.append(f"{path}: in no room of {layers.name}")
+                faults.append(f"{path}: in no room of layers.txt")
                 continue
             text = file.read_text()
             if room == "public" and FOREIGN.search(text):
@@ -84,9 +91,69 @@ def main():
                     faults.append(f"{path}: {room} includes {target} of {other}")
     if len(includes) < 100:
         faults.append(f"only {len(includes)} files were read")
-    way = circle(includes)
-    if way:
-        faults.append("a circle of includes: " + " -> ".join(way))
+    return includes
+
+
+def read_slang(source, rooms, faults):
+    """File of the kernels to the files that it imports."""
+    texts = {file.relative_to(source).as_posix(): re.sub(r"//[^\n]*", "", file.read_text()) for file in sorted((source / "slang").rglob("*.slang"))}
+    places = [folder for folder, _ in rooms.values() if folder.startswith("slang/")] + ["slang"]
+    parts = {module: [path for path, text in texts.items() if module in PART.findall(text)] for module in GENERATED}
+
+    def found(path, module):
+        """The files that an import reads: beside the importing file, else in a room, as slangc looks for them."""
+        if module in GENERATED:
+            return parts[module]
+        name = module.removesuffix(".slang") if "/" in module or module.endswith(".slang") else module.replace(".", "/")
+        for folder in (path.rpartition("/")[0], *places):
+            for file in (f"{folder}/{name.replace('_', '-')}.slang", f"{folder}/{name}.slang"):
+                if file in texts:
+                    return [file]
+        return None
+
+    imports, names = {}, {}
+    for path, text in texts.items():
+        room = room_of(path, rooms)
+        if room is None:
+            faults.append(f"{path}: in no room of layers.txt")
+            continue
+        imports[path] = set()
+        for module in [*IMPORT.findall(text), *(file for file, _ in INCLUDE.findall(text) if file)]:
+            targets = found(path, module)
+            if targets is None:
+                faults.append(f"{path}: imports {module}, which is not there")
+                continue
+            for target in targets:
+                imports[path].add(target)
+                other = room_of(target, rooms)
+                if other not in rooms[room][1]:
+                    faults.append(f"{path}: {room} imports {module}, which reads {target} of {other}")
+                    break
+        for module in PART.findall(text):
+            home = {"settings": "slang-wide", "variant": "slang-axes"}.get(module)
+            if room != home:
+                faults.append(f"{path}: a part of {module}, and not in {home}")
+        if room != "slang-machine" and TARGET.search(text):
+            faults.append(f"{path}: knows its target ({TARGET.search(text).group(0)}), and is not in slang-machine")
+        if (room == "slang-stages") != bool(ENTRY.search(text)):
+            faults.append(f"{path}: {'no entry point, and in' if room == 'slang-stages' else 'an entry point, and not in'} slang-stages")
+        for module in re.findall(r"^\s*module\s+(\w+)\s*;", text, re.MULTILINE):
+            if module in names:
+                faults.append(f"{path}: a second module {module}, beside {names[module]}")
+            names[module] = path
+    if len(imports) < 50:
+        faults.append(f"only {len(imports)} kernel files were read")
+    return imports
+
+
+def main():
+    source = pathlib.Path(sys.argv[1])
+    rooms = rooms_of(pathlib.Path(sys.argv[2]) if len(sys.argv) > 2 else pathlib.Path(__file__).with_name("layers.txt"))
+    faults = []
+    for what, read in (("includes", read_cpp), ("imports", read_slang)):
+        way = circle(read(source, rooms, faults))
+        if way:
+            faults.append(f"a circle of {what}: " + " -> ".join(way))
     for fault in faults:
         print(fault)
     return 1 if faults else 0

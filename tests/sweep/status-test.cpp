@@ -17,7 +17,7 @@ std::string head(const std::string& more) {
 
 /// The transform's own kernel with one line in place of another.
 std::string transformWith(const std::string& old, const std::string& line) {
-  std::ifstream file(TESSERA_SOURCE_DIR "/slang/rasterizer/transform.slang");
+  std::ifstream file(TESSERA_SOURCE_DIR "/slang/stages/transform.slang");
   std::ostringstream text;
   text << file.rdbuf();
   std::string kernel = text.str();

@@ -122,7 +122,7 @@ PLACE_AND_SWIFTSHADER_TEST_CASE("64-bit integers have the bits of the host's as 
 }
 
 TEST_CASE("the probe sees a division by way of the reciprocal") {
-  const Altered sources("exact-math.slang", "return a / b;", "return a * (1.0f / b);");
+  const Altered sources("math/exact-math.slang", "return a / b;", "return a * (1.0f / b);");
   const auto device = makeCpuDevice();
   const Probe probe = sources.probe(*device, Route::kCpp);
   CHECK(!probe.passed());
@@ -132,7 +132,7 @@ TEST_CASE("the probe sees a division by way of the reciprocal") {
 }
 
 TEST_CASE("the probe sees a fused product and sum") {
-  const Altered sources("probe.slang", "a * b + c", "fma(a, b, c)");
+  const Altered sources("stages/probe.slang", "a * b + c", "fma(a, b, c)");
   const auto device = makeCpuDevice();
   const Probe probe = sources.probe(*device, Route::kCpp);
   CHECK(!row(probe, "contraction").passed);
@@ -141,7 +141,7 @@ TEST_CASE("the probe sees a fused product and sum") {
 }
 
 TEST_CASE("the probe sees denormals flushed to zero and does not blame the operation") {
-  const Altered sources("probe.slang", "asuint(a + b)",
+  const Altered sources("stages/probe.slang", "asuint(a + b)",
                         "(asuint(a + b) & 0x7f800000u) == 0u ? asuint(a + b) & 0x80000000u : asuint(a + b)");
   const auto device = makeCpuDevice();
   const Probe probe = sources.probe(*device, Route::kCpp);
@@ -150,7 +150,7 @@ TEST_CASE("the probe sees denormals flushed to zero and does not blame the opera
 }
 
 TEST_CASE("the probe sees a wide integer rounded twice") {
-  const Altered sources("wide-native.slang", "return float(a);",
+  const Altered sources("axes/wide/native.slang", "return float(a);",
                         "return float(int(a >> 32)) * 4294967296.0f + float(uint(a));");
   const auto device = makeCpuDevice();
   const Probe probe = sources.probe(*device, Route::kCpp);
@@ -169,7 +169,7 @@ TEST_CASE("the probe sees two words that lose a carry or a tie") {
         Fault{"below + (mantissa & 1u) > 0x100u", "below >= 0x100u", "two-word-to-float"},
         Fault{"(a.high == b.high) & (a.low < b.low)", "(a.low < b.low)", "two-word-compare"}}) {
     INFO(from);
-    const Altered sources("wide-two-word.slang", from, to);
+    const Altered sources("axes/wide/two-word.slang", from, to);
     const auto device = makeCpuDevice();
     const Probe probe = sources.probeWith(
         *device, [](Device& d, KernelCache& kernels) { return probeWide(d, kernels, Route::kCpp, 10000); });

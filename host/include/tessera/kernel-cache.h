@@ -16,7 +16,7 @@ namespace tessera {
 /// One kernel to compile. The generated modules are the only thing that differs between variants of a stage.
 struct KernelRequest {
   std::string stage;   ///< for messages and CompiledKernel::stage
-  std::string source;  ///< file under slang/, e.g. "rasterizer/raster-tile.slang"
+  std::string source;  ///< file under slang/, e.g. "stages/raster-tiles.slang"
   std::string entry;   ///< entry point
   Route route = Route::kCpp;
   VariantModules modules;

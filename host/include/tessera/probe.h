@@ -31,9 +31,9 @@ struct Probe {
   bool onlyFlushes() const;
 };
 
-/// Runs slang/probe.slang on the device and compares each result with the host's, bit for bit, over edge values and
-/// seeded random inputs (denormals, infinities and NaN among them where the contract can meet them). `route`: kSpirv or
-/// kGlsl on a Vulkan device.
+/// Runs slang/stages/probe.slang on the device and compares each result with the host's, bit for bit, over edge values
+/// and seeded random inputs (denormals, infinities and NaN among them where the contract can meet them). `route`:
+/// kSpirv or kGlsl on a Vulkan device.
 Probe probeDevice(Device& device, KernelCache& kernels, Route route);
 
 /// Its part about 64-bit integers, native where the device has them and as two words, over as many random inputs.
