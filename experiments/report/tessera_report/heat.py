@@ -41,7 +41,7 @@ def heat(of, across, down):
         )
     if any(value is not None for _, _, value, _, _ in panel.cells):
       drawn.append(panel)
-  rest = [axis for axis in of.sweep.swept if axis not in (across, down)]
+  rest = [axis for axis in of.sweep.swept if axis not in (across, down) and any(axis in cell.values for cell in every)]
   caption = "Time of a frame over the reference's in the same round, medians: below 1 is faster. "
   caption += f"Each field has the fastest over {words.listing(rest)}. " if rest else ""
   return Plot(
