@@ -161,11 +161,12 @@ class Damage(unittest.TestCase):
 
   def test_schema_has_the_rows_on_record(self):
     checker = schema.Checker()
-    experiments = sorted((support.SOURCE / "experiments").glob("*/sweep.toml"))
-    self.assertGreater(len(experiments), 5)
-    for experiment in experiments:
-      for line, row in schema.read(experiment.with_name("results.jsonl"), support.SCHEMA):
-        self.assertIsNone(checker.refusal(row), f"{experiment}: {line}")
+    files = sorted((support.SOURCE / "experiments").glob("*/results.jsonl"))
+    self.assertGreater(len(files), 5)
+    for file in files:
+      self.assertTrue(file.with_name("sweep.toml").exists(), file)
+      for line, row in schema.read(file, support.SCHEMA):
+        self.assertIsNone(checker.refusal(row), f"{file}: {line}")
 
   def test_rows_of_version_2_have_no_zero_for_what_is_not_held(self):
     rows = [row for _, row in schema.read(support.SOURCE / "experiments" / "edge-arithmetic" / "results.jsonl", 2)]
