@@ -4,7 +4,6 @@
 #include <tessera/oracle.h>
 
 #include <algorithm>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -54,13 +53,6 @@ const std::vector<StageBench>& stageBenches() {
   return list;
 }
 
-Variant variantOf(const StageBench& bench) {
-  Variant variant;
-  std::istringstream words(bench.settings);
-  for (std::string word; words >> word;) variant.set(word);
-  return variant;
-}
-
 Scene sceneOf(const StageBench& bench, const std::string& name, std::uint32_t size) {
   if (name == "inside-ring") return loadInput(TESSERA_SOURCE_DIR "/datasets/scenes/inside-ring.toml", size, size);
   const bool clipSpace = name.starts_with("clip-space-");
@@ -95,7 +87,7 @@ void count(benchmark::State& state, const StageBench& bench, const Scene& scene,
 void stage(benchmark::State& state, bench::Machine& machine, const StageBench& bench, const std::string& name,
            std::uint32_t size) {
   const Scene scene = sceneOf(bench, name, size);
-  const Variant variant = variantOf(bench);
+  const Variant variant(bench.settings);
   const FrameOptions inPlace{.readBack = false};
   const Frame first = machine.rasterizer.render(scene, variant, inPlace);  // compiles, and grows buffers to their sizes
   for (auto _ : state) {

@@ -13,6 +13,8 @@ python=${TESSERA_PYTHON:-$here/../.tools/report/bin/python}
 all=($(cd "$here" && echo */sweep.toml | sed 's:/sweep.toml::g'))
 say() { printf '%s\n' "experiments: $*" >&2; }
 die() { say "$*"; exit 2; }
+# report MODULE ARGUMENTS: a module of the package, whatever lies in the working folder.
+report() { PYTHONPATH=$here/report "$python" -P -B -m "tessera_report.$1" "${@:2}"; }
 
 root=${TESSERA_OUT:-$(seen "$here/../out")}
 quick=() out=$root/experiments keep=false check=false names=()
@@ -50,7 +52,7 @@ for name in "${names[@]}"; do
   "$tessera" sweep "$own/sweep.toml" --out "$folder" --allow-kernels "${quick[@]}" "${resume[@]}" >"$folder.txt" || code=$?
   ((code != 130)) || exit 130  # Ctrl-C stops them all
   ((code == 0)) || { cat "$folder.txt"; failed+=("$name"); continue; }
-  "$python" "$here/report/expect.py" "$folder" || code=$?
+  report expect "$folder" || code=$?
   "$tessera" report "$folder" || code=$?
   ((code == 0)) || { failed+=("$name"); continue; }
   if $keep; then
@@ -65,6 +67,6 @@ done
 reported=()
 for name in "${all[@]}"; do [[ ! -f $out/$name/rows.jsonl ]] || reported+=("$name"); done
 if ((${#reported[@]})); then
-  "$python" -B "$here/report/index.py" "$out" "${reported[@]}" --schema "$(sed -n 's/.*kRowSchemaVersion = \([0-9]*\);/\1/p' "$here/../host/measure/row.h")"
+  report index "$out" "${reported[@]}" --schema "$(sed -n 's/.*kRowSchemaVersion = \([0-9]*\);/\1/p' "$here/../host/measure/row.h")"
 fi
 ((${#failed[@]} == 0)) || { say "failed: ${failed[*]}"; exit 5; }

@@ -10,7 +10,7 @@ from pathlib import Path
 import typst
 
 sys.path.append(str(Path(__file__).resolve().parents[1] / "experiments" / "report"))
-import visible
+from tessera_report import visible
 
 
 def main(source, data, out):
@@ -21,7 +21,7 @@ def main(source, data, out):
   content, warnings = typst.compile_with_warnings(source, root="/", sys_inputs={"data": str(data)}, ignore_system_fonts=True,
                                                   timestamp=int(day.timestamp()))
   for warning in warnings:
-    print(visible.oneLine(f"{source.name}: {warning}"), file=sys.stderr)
+    print(visible.one_line(f"{source.name}: {warning}"), file=sys.stderr)
   with tempfile.TemporaryDirectory(dir=out.parent, prefix=out.name + ".", suffix=".tmp") as folder:
     new = Path(folder) / out.name
     new.write_bytes(content)

@@ -1,4 +1,5 @@
-// experiments/report/row.schema.json, built in: what the report would refuse in a row is refused before it is written.
+// experiments/report/tessera_report/row.schema.json, built in: what the report would refuse in a row is refused before
+// it is written.
 #pragma once
 
 #include <string>

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <charconv>
 
+#include "host/axes/settings.h"
 #include "host/support/suggest.h"
 
 namespace tessera {
@@ -19,6 +20,13 @@ void checkNumber(const Axis& axis, std::string_view text) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   if (error != std::errc{} || end != text.data() + text.size() || number < axis.least || number > axis.most)
     failUsage(fmt::format("--set {}={}: takes an integer from {} to {}", axis.name, text, axis.least, axis.most));
+}
+
+[[noreturn]] void failWithoutValue(const Axis& axis) {
+  failUsage(axis.values.empty() ? fmt::format("--set {0}: has no value; {0}={1} to {0}={2} would be right", axis.name,
+                                              axis.least, axis.most)
+                                : fmt::format("--set {0}: has no value; {0}={1} would be right", axis.name,
+                                              fmt::join(namesOf(axis.values, &AxisValue::name), " or ")));
 }
 
 }  // namespace
@@ -60,6 +68,16 @@ Variant::Variant(std::initializer_list<std::pair<std::string_view, std::string_v
   for (const auto& [name, value] : settings) set(name, value);
 }
 
+Variant::Variant(std::string_view settings) {
+  for (const std::string& setting : settingsIn(settings)) {
+    const auto equals = setting.find('=');
+    const std::string name = setting.substr(0, equals);
+    if (equals == std::string::npos) failWithoutValue(axis(name));
+    if (has(name)) failUsage(fmt::format("--set {}: {} is set twice; once would do", setting, name));
+    set(name, setting.substr(equals + 1));
+  }
+}
+
 void Variant::set(std::string_view name, std::string_view value) {
   const Axis& a = axis(name);
   if (a.values.empty())
@@ -67,19 +85,6 @@ void Variant::set(std::string_view name, std::string_view value) {
   else
     axisValue(a.name, value);
   values_[a.name] = value;
-}
-
-void Variant::set(std::string_view assignment) {
-  const auto equals = assignment.find('=');
-  if (assignment.empty()) failUsage("--set '': takes axis=value");
-  if (equals == std::string_view::npos) {
-    const Axis& a = axis(assignment);
-    failUsage(a.values.empty()
-                  ? fmt::format("--set {0}: has no value; {0}={1} to {0}={2} would be right", a.name, a.least, a.most)
-                  : fmt::format("--set {0}: has no value; {0}={1} would be right", a.name,
-                                fmt::join(namesOf(a.values, &AxisValue::name), " or ")));
-  }
-  set(assignment.substr(0, equals), assignment.substr(equals + 1));
 }
 
 bool Variant::has(std::string_view name) const { return values_.contains(std::string(name)); }

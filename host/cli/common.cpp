@@ -13,10 +13,10 @@
 #include <cmath>
 #include <cstdio>
 #include <set>
-#include <sstream>
 
 #include "datasets/input-files.h"
 #include "datasets/text.h"
+#include "host/axes/settings.h"
 #include "host/devices/open.h"
 #include "host/kernels/user-kernel.h"
 #include "host/measure/measure.h"
@@ -160,28 +160,20 @@ std::vector<std::string> settingsOf(const Options& options) {
   for (const std::string& typed : options.settings) {
     bool first = true;
     for (const std::string& part : partsOf(typed, "--set", "AXIS=VALUE,AXIS=VALUE")) {
-      std::istringstream words(part);  // no value holds a blank
-      for (std::string setting; words >> setting; first = false) {
+      for (const std::string& setting : settingsIn(part)) {
         if (!first && setting.find('=') == setting.npos)
           failUsage(
               fmt::format("--set {}: '{}' has no axis; AXIS=VALUE,AXIS=VALUE would be right, with one value an axis",
                           typed, setting));
         settings.push_back(setting);
+        first = false;
       }
     }
   }
   return settings;
 }
 
-Variant variantOf(const Options& options) {
-  Variant variant;
-  for (const auto& setting : settingsOf(options)) {
-    const std::string name = setting.substr(0, setting.find('='));
-    if (variant.has(name)) failUsage(fmt::format("--set {}: {} is set twice; once would do", setting, name));
-    variant.set(setting);
-  }
-  return variant;
-}
+Variant variantOf(const Options& options) { return Variant(fmt::format("{}", fmt::join(settingsOf(options), " "))); }
 
 KernelFiles kernelFilesOf(const Options& options) {
   KernelFiles files;

@@ -1,4 +1,5 @@
-// tessera report: from a sweep's rows to a page, figures and an export. Python makes them, from experiments/report.
+// tessera report: from a sweep's rows to a page, figures and an export. Python makes them: the package
+// tessera_report, run from experiments/report.
 #include <fmt/format.h>
 #include <unistd.h>
 

@@ -1,8 +1,8 @@
 """The section on bins and their capacity."""
-import report  # noqa: F401, where the next one lies
-import ratios
+import report  # noqa: F401, where tessera_report lies
+from tessera_report import ratios
 from quantities import factor, least, most, quantity, share
-from scenes import counter, find, sceneOf, sweepOf, timeOf, winner
+from scenes import counter, find, scene_of, sweep_of, time_of, winner
 
 
 def lost(cell):
@@ -25,7 +25,7 @@ def values(sweep):
       dropped = drop and drop.timed
       entries = counter(drop, "overflowed") + counter(drop, "binned") if dropped else 0
       lines.append({
-          "capacity": quantity(int(capacity)), "retry": timeOf(retry), "drop": timeOf(drop),
+          "capacity": quantity(int(capacity)), "retry": time_of(retry), "drop": time_of(drop),
           "retries": quantity(counter(retry, "retries")) if retry and retry.timed else None,
           "dropped": share(counter(drop, "overflowed"), entries) if dropped else None,
           "wrong": lost(drop) if dropped else None,
@@ -38,7 +38,7 @@ def values(sweep):
     prices += [factor(ratio.median) for ratio in price if ratio.verdict == "slower"]
     quickest, _ = winner(group, [cell for cell in [*queues["retry"], exact, bitmask] if cell and cell.timed], ["binning", "capacity", "overflow"])
     scenes.append({
-        **sceneOf(group), "lines": lines, "bitmask": timeOf(bitmask), "best": quickest,
+        **scene_of(group), "lines": lines, "bitmask": time_of(bitmask), "best": quickest,
         "fullest": quantity(counter(exact, "largestBin")),
         "enough": quantity(int(enough.values["capacity"])) if enough else None, "lossless": lossless,
     })
@@ -47,7 +47,7 @@ def values(sweep):
   bitmasks = [scene["bitmask"] for scene in scenes if "value" in scene["bitmask"]]
   varies = any(line["wrong"]["least"]["value"] != line["wrong"]["most"]["value"] for line in lossy)
   return {
-      **sweepOf(sweep, "bin-capacity"), "capacities": [quantity(int(capacity)) for capacity in capacities], "places": scenes,
+      **sweep_of(sweep, "bin-capacity"), "capacities": [quantity(int(capacity)) for capacity in capacities], "places": scenes,
       "tile": sweep.cells[0].row["variant"]["tile"],
       "leastPrice": least(prices), "mostPrice": most(prices), "retried": quantity(retries), "dear": quantity(len(prices)),
       # Where dropping pays, if anywhere: the faster lossy cells, and the least that such a cell loses.

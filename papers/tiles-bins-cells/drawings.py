@@ -5,18 +5,16 @@ import matplotlib
 from matplotlib import pyplot
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
-import report  # noqa: F401, where the next three lie
-import figures
-import panels as panels_
-import scales
+import report  # noqa: F401, where tessera_report lies
+from tessera_report import figures, panels as panels_, scales
 
-kInch = 2.54
-kWidth = 17.4 / kInch  # of the page's text
+INCH = 2.54
+WIDTH = 17.4 / INCH  # of the page's text
 # Matplotlib measures text in STIX, which it brings along and which is about as wide as the page's Libertinus.
-kStyle = {**figures.kStyle, "font.family": "STIXGeneral", "font.size": 8, "svg.fonttype": "none", "axes.edgecolor": "black",
+STYLE = {**figures.STYLE, "font.family": "STIXGeneral", "font.size": 8, "svg.fonttype": "none", "axes.edgecolor": "black",
           "axes.spines.top": False, "axes.spines.right": False, "axes.titlesize": 8, "axes.labelsize": 8, "axes.titlelocation": "left",
           "xtick.labelsize": 7.5, "ytick.labelsize": 7.5, "legend.fontsize": 8, "legend.handlelength": 1.8}
-kBand = "#e4e4e4"
+BAND = "#e4e4e4"
 
 
 def curve(axes, names, name, points, errors=True, **options):
@@ -25,12 +23,12 @@ def curve(axes, names, name, points, errors=True, **options):
     return
   colour, shape = panels_.style(names, name)
   x, y, low, high = zip(*points)
-  axes.plot(x, y, color=colour, marker=figures.kMarkers[shape], label=name, zorder=3, **options)
+  axes.plot(x, y, color=colour, marker=figures.MARKERS[shape], label=name, zorder=3, **options)
   if errors:
     axes.vlines(x, low, high, color=colour, linewidth=0.6, zorder=2)
 
 
-def ratioAxis(axes, values):
+def ratio_axis(axes, values):
   """Logarithmic, with the reference's line, and ticks that can be read."""
   axes.set_yscale("log")
   low, high = scales.domain([*values, 0.97, 1.03], True)
@@ -90,19 +88,19 @@ def legend(figure, axes, count):
 def tile(path, sweep):
   names = sweep.order("binning")
   tiles = [int(value) for value in sweep.order("tile")]
-  figure = pyplot.figure(figsize=(kWidth, 5.4 / kInch), layout="constrained")
+  figure = pyplot.figure(figsize=(WIDTH, 5.4 / INCH), layout="constrained")
   axes = panels(figure, 1, len(sweep.groups), sharey=True)[0]
   heights = []
   for one, group in zip(axes, sweep.groups):
     title(one, group.values["scene"])
-    one.axhspan(1 / group.floor, group.floor, color=kBand, linewidth=0)
+    one.axhspan(1 / group.floor, group.floor, color=BAND, linewidth=0)
     for name in names:
       points = sorted((int(cell.values["tile"]), *shown(cell.ratio)) for cell in group.candidates if cell.values["binning"] == name)
       heights += [value for point in points for value in point[1:]]
       curve(one, names, name, points)
     doubling(one, tiles, "tile edge, pixels")
   for one in axes:
-    ratioAxis(one, heights)
+    ratio_axis(one, heights)
   axes[0].set_ylabel("time over the reference's")
   legend(figure, axes[0], len(names))
   save(figure, path)
@@ -115,14 +113,14 @@ def shown(ratio):
 def capacity(path, sweep, places):
   names = ["retry", "drop", "bitmask"]
   capacities = [int(value) for value in sweep.order("capacity")]
-  figure = pyplot.figure(figsize=(kWidth, 8.2 / kInch), layout="constrained")
+  figure = pyplot.figure(figsize=(WIDTH, 8.2 / INCH), layout="constrained")
   axes = panels(figure, 2, len(sweep.groups), sharex=True)
   heights, losses = [], []
   for column, (group, place) in enumerate(zip(sweep.groups, places)):
     times, wrong = axes[0][column], axes[1][column]
     title(times, group.values["scene"])
     title(wrong, group.values["scene"])
-    times.axhspan(1 / group.floor, group.floor, color=kBand, linewidth=0)
+    times.axhspan(1 / group.floor, group.floor, color=BAND, linewidth=0)
     for policy in ("retry", "drop"):
       points = sorted((int(cell.values["capacity"]), *shown(cell.ratio)) for cell in group.candidates if cell.values.get("overflow") == policy)
       heights += [value for point in points for value in point[1:]]
@@ -137,7 +135,7 @@ def capacity(path, sweep, places):
     curve(wrong, names, "drop", points, linestyle="--")
   small = 10.0 ** math.floor(math.log10(min(losses, default=1e-3)))
   for times, wrong in axes.T:
-    ratioAxis(times, heights)
+    ratio_axis(times, heights)
     # Zero has a place of its own, below the smallest loss.
     wrong.set_yscale("symlog", linthresh=small, linscale=0.5)
     wrong.set_ylim(-0.2 * small, 150)
@@ -157,12 +155,12 @@ def capacity(path, sweep, places):
 
 def cells(path, sweep, values):
   names = values["traversals"]
-  figure = pyplot.figure(figsize=(kWidth, 10.6 / kInch), layout="constrained")
+  figure = pyplot.figure(figsize=(WIDTH, 10.6 / INCH), layout="constrained")
   (one, step), (size, tests) = panels(figure, 2, 2, sharex=True)
   groups = sorted(sweep.groups, key=lambda group: float(group.cells[0].values["x"]))
   areas = [float(group.cells[0].values["x"]) for group in groups]
   for axes in (one, step, size):
-    axes.fill_between(areas, [1 / group.floor for group in groups], [group.floor for group in groups], color=kBand, linewidth=0)
+    axes.fill_between(areas, [1 / group.floor for group in groups], [group.floor for group in groups], color=BAND, linewidth=0)
   plain = lambda cell, traversal: cell.values["traversal"] == traversal and cell.values["step"] == "direct" and cell.values["size-class"] == "off"
   heights = []
   for name in names:
@@ -178,9 +176,9 @@ def cells(path, sweep, values):
         points = [(point["area"], point["ratio"], point["low"], point["high"]) for point in pair["curve"]]
         changes += [value for point in points for value in point[1:]]
         curve(axes, names, pair["traversal"], points)
-  ratioAxis(one, heights)
+  ratio_axis(one, heights)
   for axes in (step, size):
-    ratioAxis(axes, changes)
+    ratio_axis(axes, changes)
   tests.set_yscale("log")
   powers(tests.yaxis)
   tests.yaxis.set_minor_locator(matplotlib.ticker.NullLocator())
@@ -199,7 +197,7 @@ def cells(path, sweep, values):
 
 
 def draw(out, tile_, capacity_, pineda, values):
-  with matplotlib.rc_context(kStyle):
+  with matplotlib.rc_context(STYLE):
     tile(out / "tile.svg", tile_)
     capacity(out / "capacity.svg", capacity_, values["capacity"]["places"])
     cells(out / "cells.svg", pineda, values["cells"])

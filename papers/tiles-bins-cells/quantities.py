@@ -1,8 +1,8 @@
 """Numbers as the page shows them: {value, unit, text}, three significant digits, counts in full, ratios with two places below 10."""
 import math
 
-import report  # noqa: F401, where the next one lies
-import words
+import report  # noqa: F401, where tessera_report lies
+from tessera_report import words
 
 
 def quantity(value, unit="", digits=3):

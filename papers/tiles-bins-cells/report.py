@@ -1,6 +1,6 @@
-"""Puts experiments/report on Python's path: what reads rows, compares times and draws is there."""
+"""Puts experiments/report on Python's path: its package tessera_report reads rows, compares times and draws."""
 from pathlib import Path
 import sys
 
-kRoot = Path(__file__).resolve().parents[2]
-sys.path.append(str(kRoot / "experiments" / "report"))
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.append(str(ROOT / "experiments" / "report"))

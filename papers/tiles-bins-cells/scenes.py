@@ -1,6 +1,6 @@
 """What the three sweeps have in common: scenes, fields of tables, winners."""
-import report  # noqa: F401, where the next one lies
-import words
+import report  # noqa: F401, where tessera_report lies
+from tessera_report import words
 from quantities import factor, least, most, quantity
 
 
@@ -8,7 +8,7 @@ def counter(cell, name):
   return cell.row["counters"][name]
 
 
-def sceneOf(group):
+def scene_of(group):
   reference = group.reference
   middle, low, high = reference.spread
   return {
@@ -20,10 +20,10 @@ def sceneOf(group):
   }
 
 
-def sweepOf(sweep, name):
+def sweep_of(sweep, name):
   cells = [cell for cell in sweep.cells if not cell.twin]
   implementation = [cell for cell in cells if cell.row["variant"].get("overflow") != "drop"]
-  floors = [sceneOf(group)["floor"] for group in sweep.groups]
+  floors = [scene_of(group)["floor"] for group in sweep.groups]
   size = sweep.cells[0].row["scene"]["size"]
   return {
       "name": name, "question": sweep.question,
@@ -34,12 +34,12 @@ def sweepOf(sweep, name):
       "exact": quantity(sum(cell.status == "ok" and cell.mismatches() == 0 for cell in implementation)),
       "implementation": quantity(len(implementation)),
       "least": least(floors), "most": most(floors),
-      "failed": [{"name": f"{cell.values['scene']}: {words.cellName(cell, sweep.swept)}", "status": cell.status} for cell in cells if cell.status != "ok"],
+      "failed": [{"name": f"{cell.values['scene']}: {words.cell_name(cell, sweep.swept)}", "status": cell.status} for cell in cells if cell.status != "ok"],
       "resumed": any(session for cell in sweep.cells if cell.timed for session in cell.row["time_ns"].get("sessions", [])),
   }
 
 
-def timeOf(cell, fastest=()):
+def time_of(cell, fastest=()):
   """A field of a table of ratios."""
   if cell is None:
     return {"text": "", "verdict": "", "fastest": False}
@@ -52,7 +52,7 @@ def timeOf(cell, fastest=()):
 def winner(group, cells, axes):
   """The fastest of some cells, and the names of those that are equal to it."""
   first, *equal = group.fastest(cells)
-  return {"name": words.cellName(first, axes), "ratio": timeOf(first), "values": first.values,
+  return {"name": words.cell_name(first, axes), "ratio": time_of(first), "values": first.values,
           "equal": quantity(len(equal))}, [first, *equal]
 
 
@@ -61,7 +61,7 @@ def common(sets, order):
   return [value for value in order if all(value in other for other in sets)]
 
 
-def valuesOf(cells_, axis, order): return [value for value in order if any(cell.values[axis] == value for cell in cells_)]
+def values_of(cells_, axis, order): return [value for value in order if any(cell.values[axis] == value for cell in cells_)]
 
 
 def find(group, **values):

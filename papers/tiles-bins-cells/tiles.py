@@ -1,8 +1,8 @@
 """The section on tile size."""
-import report  # noqa: F401, where the next one lies
-import rows
+import report  # noqa: F401, where tessera_report lies
+from tessera_report import rows
 from quantities import factor, least, most, share
-from scenes import common, counter, find, sceneOf, stages, sweepOf, timeOf, valuesOf, winner
+from scenes import common, counter, find, scene_of, stages, sweep_of, time_of, values_of, winner
 
 
 def values(sweep):
@@ -23,10 +23,10 @@ def values(sweep):
       over.setdefault((cell.values["binning"], cell.values["tile"]), []).append(group.compare(cell, fastest[0]).median)
     exact = [find(group, binning="exact", tile=tile) for tile in tiles]
     scenes.append({
-        **sceneOf(group), "best": best,
-        "ratios": [[timeOf(find(group, binning=binning, tile=tile), fastest) for tile in tiles] for binning in binnings],
+        **scene_of(group), "best": best,
+        "ratios": [[time_of(find(group, binning=binning, tile=tile), fastest) for tile in tiles] for binning in binnings],
         "pairs": [factor(counter(cell, "binned") / counter(cell, "pieces")) if cell and cell.timed else None for cell in exact],
-        "binning": [share(binTime(cell), sum(stages(cell).values())) if cell and cell.timed else None for cell in exact],
+        "binning": [share(bin_time(cell), sum(stages(cell).values())) if cell and cell.timed else None for cell in exact],
     })
   whole = {key: max(values) for key, values in over.items() if len(values) == len(sweep.groups)}
   if not whole:
@@ -34,10 +34,10 @@ def values(sweep):
   safest = min(whole, key=whole.get)
   spreads = [factor_ for factor_ in spreads if factor_]
   return {
-      **sweepOf(sweep, "tile-size"), "tiles": tiles, "binnings": binnings, "places": scenes,
+      **sweep_of(sweep, "tile-size"), "tiles": tiles, "binnings": binnings, "places": scenes,
       # Among the fastest, that is the fastest or equal to it, on every scene.
-      "commonTiles": common([valuesOf(cells_, "tile", tiles) for cells_ in winners], tiles),
-      "commonBinnings": common([valuesOf(cells_, "binning", binnings) for cells_ in winners], binnings),
+      "commonTiles": common([values_of(cells_, "tile", tiles) for cells_ in winners], tiles),
+      "commonBinnings": common([values_of(cells_, "binning", binnings) for cells_ in winners], binnings),
       "safest": {"name": f"binning={safest[0]} tile={safest[1]}", "worst": factor(whole[safest])},
       "leastSpread": least(spreads), "mostSpread": most(spreads),
   }
@@ -49,5 +49,5 @@ def spread(group, slower, faster):
   return None if ratio.equal else factor(ratio.median)
 
 
-def binTime(cell):
+def bin_time(cell):
   return sum(ns for stage, ns in stages(cell).items() if stage.startswith(("bin-", "scan-")))

@@ -42,6 +42,7 @@ expect 2 "no command 'frobnicate'" ./dev frobnicate
 expect 2 "no command 'frobnicate'" ./dev help frobnicate
 expect 2 "no benchmark 'nosuch'; there are: frames" ./dev bench nosuch
 expect 2 'did you mean frames?' ./dev bench frmaes
+expect 2 'no option --fast' ./dev bench variants --fast
 expect 2 "no experiment 'nosuch'; there are: bin-capacity" ./dev experiments nosuch
 expect 2 'no option --fast' ./dev experiments --fast
 expect 2 "clean takes no 'build'" ./dev clean build

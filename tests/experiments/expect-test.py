@@ -6,8 +6,9 @@ import sys
 import tempfile
 import unittest
 
-sys.path.insert(0, str(Path(__file__).parents[2] / "experiments" / "report"))
-import expect
+REPORT = Path(__file__).parents[2] / "experiments" / "report"
+sys.path.insert(0, str(REPORT))
+from tessera_report import expect
 
 
 def row(cell, tile, status="ok", mismatch=0, twin=False, scene="ball"):
@@ -23,38 +24,38 @@ class Expect(unittest.TestCase):
       (Path(folder) / "rows.jsonl").write_text("".join(json.dumps(row) + "\n" for row in rows))
       return expect.check(Path(folder))
 
-  def testWhatHolds(self):
+  def test_what_holds(self):
     toml = '[[expect]]\nwhere = {tile = [8, 16]}\nstatus = "ok"\nerror.id_mismatch = 0\n'
     self.assertEqual(self.check(toml, row(0, "8"), row(1, "16"), row(2, "32", mismatch=5)), ([], 2))
 
-  def testNumbersAndComparisons(self):
+  def test_numbers_and_comparisons(self):
     for wanted, value, holds in (("0", 0, True), ("0", 1, False), ('"> 0"', 1, True), ('"> 0"', 0, False),
                                  ('"<= 3"', 3, True), ('"< 3"', 3, False), ('">= 1e1"', 10, True)):
       lines, checked = self.check(f"[[expect]]\nerror.id_mismatch = {wanted}\n", row(0, "8", mismatch=value))
       self.assertEqual((not lines, checked), (holds, 1), f"{value} against {wanted}")
 
-  def testStatus(self):
+  def test_status(self):
     toml = '[[expect]]\nstatus = "ok"\n'
     lines, _ = self.check(toml, row(0, "8"), row(1, "16", status="timeout"))
     self.assertEqual(len(lines), 1)
     self.assertIn("tile=16: status is timeout, not ok: why", lines[0])
     self.assertEqual(self.check('[[expect]]\nstatus = ["ok", "timeout"]\nerror.id_mismatch = 0\n', row(0, "8", status="timeout"))[0], [])
 
-  def testTextForTheTerminal(self):
+  def test_text_for_the_terminal(self):
     """Names and messages of rows reach it on one line, with what it would obey written out."""
     with tempfile.TemporaryDirectory() as folder:
       (Path(folder) / "sweep.toml").write_text('[[expect]]\nstatus = "ok"\n')
       damaged = row(0, "8\x1b[31m", status="timeout", scene="a\nb") | {"message": "\x1b]0;title\x07"}
       (Path(folder) / "rows.jsonl").write_text(json.dumps(damaged) + "\n")
-      result = subprocess.run([sys.executable, expect.__file__, folder], capture_output=True, text=True)
+      result = subprocess.run([sys.executable, "-m", "tessera_report.expect", folder], cwd=REPORT, capture_output=True, text=True)
     self.assertEqual((result.returncode, result.stderr.count("\n"), result.stdout.count("\n")), (5, 1, 1))
     self.assertIn("a b 8x8 cpu, tile=8\\u001b[31m: status is timeout, not ok: \\u001b]0;title\\u0007\n", result.stderr)
 
-  def testWhatIsNotThere(self):
+  def test_what_is_not_there(self):
     self.assertIn("counters.pieces is not there", self.check("[[expect]]\ncounters.pieces = 1\n", row(0, "8"))[0][0])
     self.assertIn("chooses no cell", self.check('[[expect]]\nwhere = {tile = 64}\nstatus = "ok"\n', row(0, "8"))[0][0])
 
-  def testScenesThatDidNotRunAndTwins(self):
+  def test_scenes_that_did_not_run_and_twins(self):
     self.assertEqual(self.check('[[expect]]\nscene = "field"\nerror.id_mismatch = 0\n', row(0, "8", mismatch=1)), ([], 0))
     self.assertEqual(self.check("[[expect]]\nerror.id_mismatch = 0\n", row(0, "8"), row(1, "8", mismatch=1, twin=True)), ([], 1))
 

@@ -33,7 +33,7 @@ def hiding():
   return before if subprocess.run([*before, "true"], capture_output=True).returncode == 0 else []
 
 
-def installIt(before):
+def install_it(before):
   made = work / "made"
   subprocess.run(["cmake", "--install", str(build), "--prefix", str(made)], check=True, stdout=subprocess.DEVNULL)
   made.rename(prefix)
@@ -77,7 +77,7 @@ class Desk:
     (work / "desk" / name).write_text(text)
 
 
-kSweep = """title = "Tiny"
+SWEEP = """title = "Tiny"
 question = "Does it run?"
 sizes = [32]
 rounds = 2
@@ -88,7 +88,7 @@ commit = ["tile-owned", "two-pass"]
 """
 
 
-def tryAll(desk):
+def try_all(desk):
   check("tessera " in desk.run("--version"), "no version")
   slangc = prefix / "lib/tessera/slang/bin/slangc"
   for device in ["cpu", "vulkan"]:
@@ -101,7 +101,7 @@ def tryAll(desk):
   desk.run("render", "generate:grid", "--size", "32x32", "-o", "own.png", "--kernel", "transform=mine.slang")
   desk.run("kernels", "--emit", "wgsl", "emitted")
   check(desk.has("emitted/raster-tiles.wgsl"), "nothing emitted")
-  desk.write("sweep.toml", kSweep)
+  desk.write("sweep.toml", SWEEP)
   desk.run("expand", "sweep.toml", "--no-estimate")
   desk.run("sweep", "sweep.toml", "--out", "results")
   desk.run("report", "results", "--export", "rows.parquet")
@@ -110,7 +110,7 @@ def tryAll(desk):
   check(all(json.loads(row)["status"] == "ok" for row in rows), "\n".join(rows))
 
 
-def tryMissing(desk):
+def try_missing(desk):
   """What is not there is said in one line, with what would do."""
 
   def says(words, *parts, code=2, **environment):
@@ -131,10 +131,10 @@ def tryMissing(desk):
 
 try:
   before = hiding()
-  installIt(before)
+  install_it(before)
   desk = Desk(before)
-  tryAll(desk)
-  tryMissing(desk)
+  try_all(desk)
+  try_missing(desk)
   print("install/moved: all of it ran" + (", the clone hidden" if desk.before else ""))
 finally:
   subprocess.run(["chmod", "-R", "u+w", str(work)])

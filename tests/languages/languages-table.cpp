@@ -46,13 +46,6 @@ Scene sceneOf(const Kind& kind) {
   return scene;
 }
 
-Variant variantOf(const Kind& kind) {
-  Variant variant;
-  std::istringstream words(kind.settings);
-  for (std::string word; words >> word;) variant.set(word);
-  return variant;
-}
-
 /// What a program says about a file, its first line; "" where it ends well.
 std::string judgedBy(std::vector<std::string> command, const std::string& bytes, const char* name) {
   const TemporaryFolder folder(fs::temp_directory_path(), "tessera-judge");
@@ -107,7 +100,7 @@ class Table {
  private:
   std::string rows(const Kind& kind) {
     const Scene scene = sceneOf(kind);
-    const Plan all = makePlan(scene, variantOf(kind), emitTarget("spirv").device);
+    const Plan all = makePlan(scene, Variant(kind.settings), emitTarget("spirv").device);
     std::string text;
     for (const std::string& stage : all.stages) {
       // 64-bit atomics are worth rows of their own.
@@ -131,7 +124,7 @@ class Table {
 
   Cell cell(const Kind& kind, const Scene& scene, const std::string& stage, const EmitTarget& target) {
     try {
-      Variant variant = variantOf(kind);
+      Variant variant(kind.settings);
       if (target.name == "glsl") variant.set("route", "glsl");
       const KernelRequest request = kernelRequest(stage, makePlan(scene, variant, target.device));
       const Emitted emitted = emitKernel(cache_, request, target);

@@ -125,11 +125,8 @@ TEST_CASE("A host that has the manifest alone runs the WGSL with the bits of the
   const std::string input = "generate:soup?count=300&pixels=150";
   for (const std::string settings : {"shade=flat", "commit=two-pass binning=none"}) {
     Desk desk;
-    std::string options;
-    Variant variant;
-    std::istringstream words(settings);
-    for (std::string word; words >> word; variant.set(word)) options += " --set " + word;
-    const auto emitted = desk.tessera("kernels --emit wgsl out '" + input + "' --size 100x75" + options);
+    const Variant variant(settings);
+    const auto emitted = desk.tessera("kernels --emit wgsl out '" + input + "' --size 100x75 --set '" + settings + "'");
     INFO(settings << "\n" << emitted.err << emitted.out);
     REQUIRE(emitted.code == 0);
     const Json manifest = Json::parse(desk.read("out/manifest.json"));

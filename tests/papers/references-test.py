@@ -7,14 +7,14 @@ import unicodedata
 import unittest
 from pathlib import Path
 
-kRoot = Path(__file__).resolve().parents[2]
-kPapers = kRoot / "papers"
+ROOT = Path(__file__).resolve().parents[2]
+PAPERS = ROOT / "papers"
 
 
-def readEntries():
+def read_entries():
   """Key -> fields. An entry begins with @ and ends with a } on a line of its own, a field a line: as the file is written."""
   entries = {}
-  text = (kPapers / "references.bib").read_text(encoding="utf-8")
+  text = (PAPERS / "references.bib").read_text(encoding="utf-8")
   for key, body in re.findall(r"^@\w+\{([^,\s]+),\n(.*?)^\}$", text, re.MULTILINE | re.DOTALL):
     if key in entries:
       raise ValueError(f"references.bib: {key} is there twice")
@@ -29,12 +29,12 @@ def plain(name):
   return re.sub(r"[^a-z-]", "", name.lower())
 
 
-def firstSurname(authors):
+def first_surname(authors):
   first = authors.split(" and ")[0]
   return plain(first.split(",")[0] if "," in first else first.split()[-1])
 
 
-def keyOf(source):
+def key_of(source):
   """Pineda, A parallel ..., SIGGRAPH 1988 -> pineda1988; Slang user guide, chapter ... -> slang-user-guide."""
   year = re.search(r"\b(1[5-9]|20)\d\d\b", source)
   if year:
@@ -54,32 +54,32 @@ def sources():
 
 
 class References(unittest.TestCase):
-  def testKeysAreAuthorAndYear(self):
-    for key, fields in readEntries().items():
+  def test_keys_are_author_and_year(self):
+    for key, fields in read_entries().items():
       with self.subTest(key):
         self.assertIn("title", fields)
         if "author" in fields:
-          self.assertEqual(key, firstSurname(fields["author"]) + fields["year"])
+          self.assertEqual(key, first_surname(fields["author"]) + fields["year"])
 
-  def testEachSourceOfAnAxisIsThere(self):
+  def test_each_source_of_an_axis_is_there(self):
     found = sources()
     self.assertGreater(len(found), 10)
-    entries = readEntries()
+    entries = read_entries()
     for source, axis in found.items():
-      self.assertTrue(keyOf(source) in entries, f'axis {axis} names "{source}"; references.bib should have an entry {keyOf(source)}')
+      self.assertTrue(key_of(source) in entries, f'axis {axis} names "{source}"; references.bib should have an entry {key_of(source)}')
 
-  def testEachNoteIsOfAnEntryAndInTheIndex(self):
-    index = (kPapers / "README.md").read_text(encoding="utf-8")
-    entries = readEntries()
-    notes = {path.stem for path in (kPapers / "notes").iterdir()}
+  def test_each_note_is_of_an_entry_and_in_the_index(self):
+    index = (PAPERS / "README.md").read_text(encoding="utf-8")
+    entries = read_entries()
+    notes = {path.stem for path in (PAPERS / "notes").iterdir()}
     self.assertEqual(notes - entries.keys(), set(), "notes without an entry")
     self.assertEqual(sorted(re.findall(r"^\| `([^`]+)` \|", index, re.MULTILINE)), sorted(entries), "rows of README.md")
     self.assertEqual(set(re.findall(r"\]\(notes/(.+?)\.md\)", index)), notes, "notes linked from README.md")
 
-  def testWhatNotesNameIsThere(self):
+  def test_what_notes_name_is_there(self):
     """A link's file is there, and the names in code behind it, up to the next link, occur in the file."""
     names = 0
-    for page in (*sorted((kPapers / "notes").iterdir()), kPapers / "README.md"):
+    for page in (*sorted((PAPERS / "notes").iterdir()), PAPERS / "README.md"):
       for line in page.read_text(encoding="utf-8").splitlines():
         links = list(re.finditer(r"\[[^\]]*\]\(([^)#]+)\)", line))
         for link, following in zip(links, [*links[1:], None]):
@@ -87,7 +87,7 @@ class References(unittest.TestCase):
             continue
           target = (page.parent / link[1]).resolve()
           self.assertTrue(target.exists(), f"{page}: {link[1]} is not there")
-          if not line.startswith("|") or not target.is_file() or kPapers in target.parents:
+          if not line.startswith("|") or not target.is_file() or PAPERS in target.parents:
             continue
           text = target.read_text(encoding="utf-8")
           for name in re.findall(r"`(\w+)`", line[link.end():following.start() if following else len(line)]):

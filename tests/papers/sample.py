@@ -6,10 +6,10 @@ import random
 import tomllib
 from pathlib import Path
 
-kRoot = Path(__file__).resolve().parents[2]
-kSweeps = ("tile-size", "bin-capacity", "pineda-cells")
-kSchema = 3
-kRounds = 5
+ROOT = Path(__file__).resolve().parents[2]
+SWEEPS = ("tile-size", "bin-capacity", "pineda-cells")
+SCHEMA = 3
+ROUNDS = 5
 
 
 def listed(values):
@@ -20,12 +20,12 @@ def listed(values):
   return [str(value) for value in values]
 
 
-def asTexts(table): return {axis: str(value) for axis, value in table.items()}
+def as_texts(table): return {axis: str(value) for axis, value in table.items()}
 
 
-def askedOf(file):
+def asked_of(file):
   asked = [dict(zip(file["axes"], values)) for values in itertools.product(*map(listed, file["axes"].values()))]
-  return [asTexts(file.get("set", {})) | cell for cell in (*asked, *map(asTexts, file.get("also", [])))]
+  return [as_texts(file.get("set", {})) | cell for cell in (*asked, *map(as_texts, file.get("also", [])))]
 
 
 def slowness(asked, area):
@@ -39,26 +39,26 @@ def slowness(asked, area):
 
 
 def rows(name, slowness_=slowness):
-  text = (kRoot / "experiments" / name / "sweep.toml").read_text(encoding="utf-8")
+  text = (ROOT / "experiments" / name / "sweep.toml").read_text(encoding="utf-8")
   file = tomllib.loads(text)
   noise = random.Random(1)
-  asked = askedOf(file)
-  reference = next(i for i, cell in enumerate(asked) if asTexts(file["reference"]).items() <= cell.items())
+  asked = asked_of(file)
+  reference = next(i for i, cell in enumerate(asked) if as_texts(file["reference"]).items() <= cell.items())
   cells = [(cell, i == reference, False) for i, cell in enumerate(asked)]
   cells.insert(reference + 1, (asked[reference], True, True))
   number = 0
   for group, (scene, about) in enumerate(file["scenes"].items()):
     about = about if isinstance(about, dict) else {"source": about}
     area = about.get("x", 100)
-    for cell, isReference, isTwin in cells:
+    for cell, is_reference, is_twin in cells:
       median = 1e7 * slowness_(cell, area)
-      samples = [round(median * noise.gauss(1, 0.01)) for _ in range(kRounds)]
+      samples = [round(median * noise.gauss(1, 0.01)) for _ in range(ROUNDS)]
       lost = 40000 // int(cell["capacity"]) if cell.get("overflow") == "drop" else 0
       row = {
-          "schema_version": kSchema, "run_id": f"{name}-{number}", "status": "ok",
+          "schema_version": SCHEMA, "run_id": f"{name}-{number}", "status": "ok",
           "variant": {"binning": "exact", "tile": "64", "traversal": "cell-reject", "step": "direct", "size-class": "off"} | cell,
           "scene": {"name": scene, "triangles": 20000, "size": [2048, 2048]},
-          "time_ns": {"samples": samples, "rounds": list(range(kRounds)), "sessions": [0] * kRounds, "clock": "wall",
+          "time_ns": {"samples": samples, "rounds": list(range(ROUNDS)), "sessions": [0] * ROUNDS, "clock": "wall",
                       "stages": {"transform": 0.1 * median, "setup": 0.2 * median, "bin-count": 0.1 * median, "raster-tiles": 0.6 * median}},
           "error": {"pixels": 2048 * 2048, "coverage_mismatch": lost, "id_mismatch": lost, "depth_mismatch": lost},
           "counters": {"tests": 90000, "covered": 30000, "submitted": 20000, "pieces": 19000, "binned": 40000, "largestBin": 900,
@@ -67,7 +67,7 @@ def rows(name, slowness_=slowness):
                          "kernel_compiler": "g++ 12.2.0, -O3 (znver3)", "device": "AMD EPYC", "driver": "g++", "api": "cpu", "threads": 2,
                          "utc": "2026-11-23T12:00:00Z"},
           "sweep": {"title": file["title"], "question": file["question"], "sha256": hashlib.sha256(text.encode()).hexdigest(), "cell": number,
-                    "group": group, "reference": isReference, "twin": isTwin, "asked": cell, "swept": list(file["axes"]), "scene": scene,
+                    "group": group, "reference": is_reference, "twin": is_twin, "asked": cell, "swept": list(file["axes"]), "scene": scene,
                     "device": "cpu", "threads": 0},
       }
       if lost:
@@ -81,7 +81,7 @@ def rows(name, slowness_=slowness):
 def write(folder, slowness_=slowness, change=lambda row: row):
   """Results folders of the three sweeps; `change` may alter a row, or leave it out by giving None. Gives the folders."""
   folders = []
-  for name in kSweeps:
+  for name in SWEEPS:
     into = Path(folder) / name
     into.mkdir(parents=True)
     changed = filter(None, map(change, rows(name, slowness_)))

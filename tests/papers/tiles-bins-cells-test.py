@@ -8,13 +8,13 @@ import tempfile
 import unittest
 from pathlib import Path
 
-kRoot = Path(__file__).resolve().parents[2]
-kPaper = kRoot / "papers" / "tiles-bins-cells"
-sys.path[:0] = [str(kPaper), str(Path(__file__).parent)]
+ROOT = Path(__file__).resolve().parents[2]
+PAPER = ROOT / "papers" / "tiles-bins-cells"
+sys.path[:0] = [str(PAPER), str(Path(__file__).parent)]
 import crossovers  # noqa: E402
 import sample  # noqa: E402
 
-typedNumbers = importlib.import_module("typed-numbers")
+typed_numbers = importlib.import_module("typed-numbers")
 
 
 class TilesBinsCells(unittest.TestCase):
@@ -28,22 +28,22 @@ class TilesBinsCells(unittest.TestCase):
     """The PDF; nothing may be said on the way, such as of a font or a figure that is not there."""
     out = self.folder / name
     out.mkdir()
-    for result in (self.run_(kPaper / "values.py", out, *folders),
-                   self.run_(kRoot / "papers/typeset.py", kPaper / "main.typ", out, out / "main.pdf")):
+    for result in (self.run_(PAPER / "values.py", out, *folders),
+                   self.run_(ROOT / "papers/typeset.py", PAPER / "main.typ", out, out / "main.pdf")):
       self.assertEqual((result.returncode, result.stderr), (0, ""))
     return (out / "main.pdf").read_bytes()
 
-  def testNoNumberIsTyped(self):
-    text = (kPaper / "main.typ").read_text(encoding="utf-8")
-    self.assertEqual(typedNumbers.find(text), [])
+  def test_no_number_is_typed(self):
+    text = (PAPER / "main.typ").read_text(encoding="utf-8")
+    self.assertEqual(typed_numbers.find(text), [])
     # It would have been seen in each of these places.
     for planted in ("It takes 1.5 ms.", "#if tile.dirty [up to 7] else [none]", '#code("tile=64")', "#table(columns: 2, [a], [12])",
                     "#let n(q) = [#q.text~#q.unit and 3 more]", "#word(1.5)", "#figure([x], caption: [Of 52 cells.])"):
-      self.assertNotEqual(typedNumbers.find(text + "\n" + planted + "\n"), [], planted)
+      self.assertNotEqual(typed_numbers.find(text + "\n" + planted + "\n"), [], planted)
     for harmless in ("@pineda1988 and <table-1>", "#v(0.5em)", "#tile.places.at(0).name", "`a 1`", "// 12"):
-      self.assertEqual(typedNumbers.find(harmless), [], harmless)
+      self.assertEqual(typed_numbers.find(harmless), [], harmless)
 
-  def testBuildsAreEqual(self):
+  def test_builds_are_equal(self):
     folders = sample.write(self.folder)
     first = self.build("a", folders)
     self.assertEqual(first[:5], b"%PDF-")
@@ -51,7 +51,7 @@ class TilesBinsCells(unittest.TestCase):
     other = sample.write(self.folder / "other", lambda asked, area: 2 * sample.slowness(asked, area))
     self.assertFalse(first == self.build("c", other), "other times give the same pages")
 
-  def testOtherOutcomesBuild(self):
+  def test_other_outcomes_build(self):
     """Sentences for what did not happen in the sample: nothing differs, nothing is lost, cells without a time, one scene."""
     def change(row):
       row["counters"]["retries"] = row["counters"]["overflowed"] = 0
@@ -64,7 +64,7 @@ class TilesBinsCells(unittest.TestCase):
 
     self.build("equal", sample.write(self.folder, lambda asked, area: 1, change))
 
-  def testCrossingsAreInterpolated(self):
+  def test_crossings_are_interpolated(self):
     def points(areas, where=1000, floor=1.02):
       ratios = [(area / where) ** -0.05 for area in areas]
       return [(area, ratio, max(ratio, 1 / ratio) <= floor) for area, ratio in zip(areas, ratios)]
@@ -76,12 +76,12 @@ class TilesBinsCells(unittest.TestCase):
     self.assertEqual(crossovers.crossings(points([1e4, 1e5, 1e6])), [])
     self.assertEqual(crossovers.runs([["a", "b"], ["b"], ["b", "c"], ["c"]]), [(["b"], 0, 2), (["c"], 3, 3)])
 
-  def testWhatIsWrongIsSaidInOneLine(self):
+  def test_what_is_wrong_is_said_in_one_line(self):
     folders = sample.write(self.folder)
     (self.folder / "out").mkdir()
 
     def refused(message):
-      result = self.run_(kPaper / "values.py", self.folder / "out", *folders)
+      result = self.run_(PAPER / "values.py", self.folder / "out", *folders)
       self.assertEqual((result.returncode, result.stderr.count("\n")), (2, 1), result.stderr)
       self.assertIn(message, result.stderr)
 
@@ -96,7 +96,7 @@ class TilesBinsCells(unittest.TestCase):
     # A clone in which nothing has been built or measured.
     bare = self.folder / "clone/papers/tiles-bins-cells"
     bare.mkdir(parents=True)
-    shutil.copy(kPaper / "reproduce.sh", bare)
+    shutil.copy(PAPER / "reproduce.sh", bare)
 
     def says(message, *arguments):
       result = subprocess.run([bare / "reproduce.sh", *arguments], capture_output=True, text=True)
@@ -111,14 +111,14 @@ class TilesBinsCells(unittest.TestCase):
     says("results.jsonl: not there; --fresh runs the sweep")
     says("./dev build builds it", "--fresh")
 
-  def testCommittedPageIsThatOfTheCommittedRows(self):
-    rows = [kRoot / "experiments" / name / "results.jsonl" for name in sample.kSweeps]
-    page = kPaper / "main.pdf"
+  def test_committed_page_is_that_of_the_committed_rows(self):
+    rows = [ROOT / "experiments" / name / "results.jsonl" for name in sample.SWEEPS]
+    page = PAPER / "main.pdf"
     if not all(path.exists() for path in rows):
       self.assertFalse(page.exists(), f"{page} has no rows that it comes from")
       return
     folders = []
-    for name, path in zip(sample.kSweeps, rows):
+    for name, path in zip(sample.SWEEPS, rows):
       folders.append(self.folder / name)
       folders[-1].mkdir()
       shutil.copy(path, folders[-1] / "rows.jsonl")

@@ -6,8 +6,8 @@ import re
 import sys
 from pathlib import Path
 
-kLength = re.compile(r"\d+(\.\d+)?(pt|em|cm|mm|fr|%)")
-kStatement = re.compile(r"(let|set|show|import)\b")
+LENGTH = re.compile(r"\d+(\.\d+)?(pt|em|cm|mm|fr|%)")
+STATEMENT = re.compile(r"(let|set|show|import)\b")
 
 
 class Scanner:
@@ -41,7 +41,7 @@ class Scanner:
 
   def embedded(self):
     """Code in markup: a statement up to the end of its line, or one expression."""
-    statement = kStatement.match(self.text, self.at)
+    statement = STATEMENT.match(self.text, self.at)
     if statement:
       self.code("\n", shown=statement[1] in ("let", "import"))
       return
@@ -81,8 +81,8 @@ class Scanner:
         self.code(")", shown)
       elif self.take('"'):
         self.string(shown)
-      elif kLength.match(self.text, self.at):
-        self.take(kLength.pattern)
+      elif LENGTH.match(self.text, self.at):
+        self.take(LENGTH.pattern)
       elif number := self.take(r"\d+(\.\d+)?"):
         if number[1]:
           self.report(number[0])

@@ -10,8 +10,7 @@ from unittest import mock
 
 import support
 import duckdb
-import export
-import files
+from tessera_report import export, files
 import sample
 from support import only, tessera
 
@@ -34,49 +33,49 @@ class Command(unittest.TestCase):
     self.assertEqual(result.stdout, "")
     self.assertFalse((self.folder / "report").exists())
 
-  def testNothingToReport(self):
+  def test_nothing_to_report(self):
     self.refused(tessera("report", self.folder), 2, "results: not a folder", "tessera sweep")
     self.folder.mkdir()
     self.refused(tessera("report", self.folder), 2, "neither rows.jsonl, journal.jsonl nor results.jsonl", "tessera sweep")
     (self.folder / "rows.jsonl").write_text("\n")
     self.refused(tessera("report", self.folder), 2, "rows.jsonl: no rows")
 
-  def testRowsThatAreNone(self):
+  def test_rows_that_are_none(self):
     rows = sample.write(self.folder, only(scene="ball", edge=256, device="cpu")) / "rows.jsonl"
     lines = rows.read_text().splitlines(keepends=True)
 
-    def refusedWith(line, *parts):
+    def refused_with(line, *parts):
       rows.write_text("".join(lines[:2]) + line + "".join(lines[2:]))
       self.refused(tessera("report", self.folder), 2, "rows.jsonl:3: ", *parts)
 
     row = json.loads(lines[2])
-    refusedWith(lines[2][:80] + "\n", "not a line of JSON")
-    refusedWith("[1]\n", "not a row")
-    refusedWith(json.dumps(row | {"schema_version": 1}) + "\n", "schema version 1", f"reads versions 2 to {support.kSchema}")
-    refusedWith(json.dumps({key: value for key, value in row.items() if key != "sweep"}) + "\n", "sweep: missing")
-    refusedWith(
+    refused_with(lines[2][:80] + "\n", "not a line of JSON")
+    refused_with("[1]\n", "not a row")
+    refused_with(json.dumps(row | {"schema_version": 1}) + "\n", "schema version 1", f"reads versions 2 to {support.SCHEMA}")
+    refused_with(json.dumps({key: value for key, value in row.items() if key != "sweep"}) + "\n", "sweep: missing")
+    refused_with(
       json.dumps(row | {"sweep": row["sweep"] | {"sha256": "f" * 64, "title": "Other"}}) + "\n",
       'another sweep, "Other"',
       "than line 1",
     )
-    refusedWith(json.dumps(row | {"sweep": row["sweep"] | {"quick": True}}) + "\n", "--quick", "line 1")
+    refused_with(json.dumps(row | {"sweep": row["sweep"] | {"quick": True}}) + "\n", "--quick", "line 1")
     rows.write_text("".join(lines + lines[:1]))
     self.refused(
       tessera("report", self.folder), 2, f"rows.jsonl:{len(lines) + 1}: cell 0 of the same machine is in line 1"
     )
 
-  def testSweepFilesOfOtherRows(self):
+  def test_sweep_files_of_other_rows(self):
     write = lambda toml: sample.write(self.folder, only(scene="ball", edge=256, device="cpu"), toml)
-    write(sample.kToml.replace('title = "Sample"', 'title = "Other"'))
+    write(sample.TOML.replace('title = "Sample"', 'title = "Other"'))
     self.refused(tessera("report", self.folder), 2, "sweep.toml: title", '"Other"', '"Sample"')
-    write(sample.kToml.replace('against = ["tile"', 'against = ["commit"'))
+    write(sample.TOML.replace('against = ["tile"', 'against = ["commit"'))
     self.refused(tessera("report", self.folder), 2, 'sweep.toml: plot.against: "commit"', "tile, binning, edge")
-    write(sample.kToml.replace('"ratio-against-tile"', '"against-commit"'))
+    write(sample.TOML.replace('"ratio-against-tile"', '"against-commit"'))
     self.refused(tessera("report", self.folder), 2, 'sweep.toml: plot.figure: "against-commit"', "against-tile")
     write("title = ")
     self.refused(tessera("report", self.folder), 2, "sweep.toml: not TOML")
 
-  def testPlacesThatDoNotDo(self):
+  def test_places_that_do_not_do(self):
     sample.write(self.folder, only(scene="ball", edge=256, device="cpu"))
     self.refused(tessera("report", self.folder, "--export", "rows.csv"), 2, "rows.csv", ".parquet or .duckdb")
     self.refused(tessera("report", self.folder, "--export", "/nowhere/rows.parquet"), 2, "/nowhere/rows.parquet")
@@ -90,9 +89,9 @@ class Command(unittest.TestCase):
       "./dev build",
     )
 
-  def testTheSameRowsGiveTheSameFilesAndAnExport(self):
+  def test_the_same_rows_give_the_same_files_and_an_export(self):
     one = (
-      "\n".join(line for line in sample.kToml.splitlines() if not line.startswith("against")) + '\nagainst = ["tile"]\n'
+      "\n".join(line for line in sample.TOML.splitlines() if not line.startswith("against")) + '\nagainst = ["tile"]\n'
     )
     files = []
     for name, zone in (("rows.parquet", "UTC"), ("rows.duckdb", "Asia/Tokyo")):
@@ -100,7 +99,7 @@ class Command(unittest.TestCase):
       result = tessera("report", folder, "--export", folder / name, TZ=zone)
       self.assertEqual((result.returncode, result.stderr), (0, ""))
       self.assertIn(f"wrote {folder / name}", result.stdout)
-      self.checkExport(folder, folder / name)
+      self.check_export(folder, folder / name)
       files.append(
         {
           str(path.relative_to(folder)): hashlib.sha256(path.read_bytes()).hexdigest()
@@ -123,7 +122,7 @@ class Command(unittest.TestCase):
     figures = folder / "report" / "figures"
     self.assertEqual((figures / "figure.svg").read_bytes(), (figures / "ratio-against-tile.svg").read_bytes())
 
-  def testAFigureThatCannotBe(self):
+  def test_a_figure_that_cannot_be(self):
     """Nothing but a software driver's times: the page is made, and a line says why the experiment's figure is not."""
     sample.write(self.folder, only(scene="ball", edge=256, device="vulkan"))
     result = tessera("report", self.folder)
@@ -132,9 +131,9 @@ class Command(unittest.TestCase):
     self.assertFalse((self.folder / "report" / "figures" / "figure.svg").exists())
     self.assertTrue((self.folder / "report" / "index.html").exists())
 
-  def testRowsOnRecord(self):
+  def test_rows_on_record(self):
     """An experiment's own folder stays as it is: its report goes below the working folder, or where --out says."""
-    experiment = support.kSource / "experiments" / "languages"
+    experiment = support.SOURCE / "experiments" / "languages"
     state = lambda: {path: (path.stat().st_mtime_ns, path.stat().st_size) for path in [experiment, *experiment.rglob("*")]}
     before, work = state(), Path(self.temporary.name) / "work"
     work.mkdir()
@@ -149,12 +148,12 @@ class Command(unittest.TestCase):
       self.assertEqual(state(), before)
     self.assertEqual(sorted(path.name for path in work.iterdir()), ["elsewhere", "out"])
 
-  def testADiskThatIsFull(self):
+  def test_a_disk_that_is_full(self):
     """One line with the name that was asked for and the cause; what stood there stays, and nothing lies beside it."""
     sample.write(self.folder, only(scene="ball", edge=256, device="cpu"))
     (self.folder / "pictures").mkdir(exist_ok=True)
     before = sorted(self.folder.rglob("*"))
-    full = lambda size, *more: tessera("report", self.folder, *more, largestFile=size)
+    full = lambda size, *more: tessera("report", self.folder, *more, largest_file=size)
     self.refused(full(4096), 1, f"tessera: {self.folder}/report: could not be written: File too large\n")
     self.assertEqual(sorted(self.folder.rglob("*")), before)
 
@@ -183,11 +182,11 @@ class Command(unittest.TestCase):
       result = tessera("report", self.folder, stdout=stdout)
     self.assertEqual((result.returncode, result.stderr), (1, "tessera: stdout: could not be written: No space left on device\n"))
 
-  def checkExport(self, folder, file):
+  def check_export(self, folder, file):
     rows = [json.loads(line) for line in (folder / "rows.jsonl").read_text().splitlines()]
-    isTable = file.suffix == ".duckdb"
-    with duckdb.connect(str(file) if isTable else ":memory:", read_only=isTable) as database:
-      table = "rows" if isTable else f"'{file}'"
+    is_table = file.suffix == ".duckdb"
+    with duckdb.connect(str(file) if is_table else ":memory:", read_only=is_table) as database:
+      table = "rows" if is_table else f"'{file}'"
       ask = lambda query: database.execute(query).fetchone()
       self.assertEqual(ask(f"SELECT count(*) FROM {table}"), (len(rows),))
       tile, ms, ratio, verdict, mismatch, first = ask(
@@ -203,7 +202,7 @@ class Command(unittest.TestCase):
       self.assertTrue(0.85 < ratio < 0.95)
       self.assertEqual(ask(f"SELECT count(*) FROM {table} WHERE status = 'overflow' AND ms IS NULL"), (2,))
 
-  def testRowsOfASweepThatWasKilled(self):
+  def test_rows_of_a_sweep_that_was_killed(self):
     """Rows come from the journal where they are missing."""
     toml = Path(self.temporary.name) / "tiny.toml"
     toml.write_text(

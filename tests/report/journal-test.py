@@ -7,10 +7,10 @@ import tempfile
 import unittest
 
 import support
-import schema
+from tessera_report import schema
 from support import tessera
 
-kSweep = """title = "Edited"
+SWEEP = """title = "Edited"
 question = "What comes of a journal that was edited?"
 sizes = [64]
 threads = [1]
@@ -27,8 +27,8 @@ overflow = ["retry", "drop", "error"]
 [truth]
 sub-pixel = 4
 """
-kValues = [None, -1, 3, 2.5, 1e300, "../../x", [1, 2, 3], {"a": 1}]
-kMark = "edited twice"  # a key that text takes for another
+VALUES = [None, -1, 3, 2.5, 1e300, "../../x", [1, 2, 3], {"a": 1}]
+MARK = "edited twice"  # a key that text takes for another
 
 
 def places(value, path=()):
@@ -60,10 +60,10 @@ def edits(line):
       old = old[key]
     yield f"{path} removed", edited(lambda holder: holder.pop(name))
     if isinstance(name, str):
-      yield f"{path} twice", edited(lambda holder: holder.update({kMark: old})).replace(f'"{kMark}"', json.dumps(name))
+      yield f"{path} twice", edited(lambda holder: holder.update({MARK: old})).replace(f'"{MARK}"', json.dumps(name))
     else:
       yield f"{path} twice", edited(lambda holder: holder.insert(name, old))
-    for value in kValues:
+    for value in VALUES:
       if value != old or type(value) is not type(old):
         yield f"{path} {json.dumps(value)[:20]}", edited(lambda holder: holder.__setitem__(name, value))
 
@@ -74,7 +74,7 @@ class Edited(unittest.TestCase):
     self.desk = Path(self.temporary.name)
     self.folder = self.desk / "out"
     self.toml = self.desk / "sweep.toml"
-    self.toml.write_text(kSweep)
+    self.toml.write_text(SWEEP)
     self.sweep()
     # Two sessions, the second with samples of the reference and its twin once more.
     lines = self.lines()
@@ -119,7 +119,7 @@ class Edited(unittest.TestCase):
     (self.folder / "rows.jsonl").write_bytes(self.rows)
     return result.returncode == 0
 
-  def testValues(self):
+  def test_values(self):
     lines = self.lines()
     kinds = {}  # the first of each kind, and the last of the samples, which is of the second session
     for i, line in enumerate(lines):
@@ -136,7 +136,7 @@ class Edited(unittest.TestCase):
     self.assertGreater(taken, 50)
     self.assertGreater(refused, 500)
 
-  def testLines(self):
+  def test_lines(self):
     """Lines that are there twice or at another place are refused with the number of the first that is wrong."""
     lines = self.lines()
     for i, line in enumerate(lines):
@@ -144,7 +144,7 @@ class Edited(unittest.TestCase):
     self.assertFalse(self.outcome("".join(lines[1:]), "no head", 1))
     self.assertFalse(self.outcome("".join(lines[:1] + lines[2:]), "no first session", 2))
 
-  def testWhatOtherLinesSay(self):
+  def test_what_other_lines_say(self):
     """An edit that each line alone would allow: the head, the list of axes or another line say otherwise."""
     lines = [json.loads(line) for line in self.lines()]
     first = {kind: next(i for i, line in enumerate(lines) if line["kind"] == kind) for kind in ("head", "session", "cell", "sample")}
@@ -181,7 +181,7 @@ class Edited(unittest.TestCase):
       text = "".join(json.dumps(line) + "\n" for line in edited)
       self.assertFalse(self.outcome(text, f"{kind} {path} {value}"), f"{kind} {path} {value}")
 
-  def testByteOrderMark(self):
+  def test_byte_order_mark(self):
     self.assertTrue(self.outcome("\ufeff" + "".join(self.lines()), "a byte order mark"))
 
 

@@ -8,8 +8,7 @@ import unittest
 from pathlib import Path
 
 import support
-import page
-import plots
+from tessera_report import page, plots
 import sample
 from selenium import webdriver
 from selenium.webdriver.common.by import By
@@ -73,7 +72,7 @@ class Browser(unittest.TestCase):
     ]
     return heads.index(name)
 
-  def testNoErrorAndNoRequest(self):
+  def test_no_error_and_no_request(self):
     self.driver.get_log("performance"), self.driver.get_log("browser")
     self.open(1280)
     self.assertEqual(self.driver.get_log("browser"), [])
@@ -82,7 +81,7 @@ class Browser(unittest.TestCase):
     self.assertIn(self.file.as_uri(), asked)
     self.assertEqual([url for url in asked if url != self.file.as_uri() and not url.startswith("data:")], [])
 
-  def testThePolicyStopsRequests(self):
+  def test_the_policy_stops_requests(self):
     """What the test before relies on is seen at work: a request is refused, and the log says so."""
     self.driver.execute_script("fetch('https://example.org/').catch(() => document.body.dataset.refused = 'yes')")
     for _ in range(50):
@@ -91,7 +90,7 @@ class Browser(unittest.TestCase):
       time.sleep(0.1)
     self.assertTrue(any("Content Security Policy" in entry["message"] for entry in self.driver.get_log("browser")))
 
-  def testEveryChartHasItsMarks(self):
+  def test_every_chart_has_its_marks(self):
     counts = self.driver.execute_script("""
       return [...document.querySelectorAll('.chart')].map(chart => ({
         symbols: chart.querySelectorAll('svg .mark-symbol.role-mark path').length,
@@ -107,7 +106,7 @@ class Browser(unittest.TestCase):
         self.assertGreaterEqual(count["rects"], len(panel.cells), name)
       self.assertIn(plot.title, count["label"], name)
 
-  def testNeitherWidthScrollsSideways(self):
+  def test_neither_width_scrolls_sideways(self):
     for width in (1280, 400):
       self.open(width)
       size = self.driver.execute_script(
@@ -119,7 +118,7 @@ class Browser(unittest.TestCase):
       self.assertLessEqual(size[2], width)
     self.open(1280)
 
-  def testPicturesAreWholeAndNotSmallerThanTheyAre(self):
+  def test_pictures_are_whole_and_not_smaller_than_they_are(self):
     shown = self.driver.execute_script(
       "return [...document.images].map(image => [image.complete, image.naturalWidth,"
       " image.getBoundingClientRect().width, image.alt])"
@@ -130,7 +129,7 @@ class Browser(unittest.TestCase):
       self.assertGreaterEqual(width, natural)
       self.assertIn("pixels", alt)
 
-  def testFilter(self):
+  def test_filter(self):
     status = self.column("status")
     box = self.driver.find_element(By.ID, "filter")
     self.assertEqual(len(self.visible(status)), len(self.sweep.cells))
@@ -144,7 +143,7 @@ class Browser(unittest.TestCase):
     box.send_keys(Keys.DELETE)
     self.assertEqual(len(self.visible(status)), len(self.sweep.cells))
 
-  def testSortByKeyboardAndMouse(self):
+  def test_sort_by_keyboard_and_mouse(self):
     ms = self.column("ms")
     button = self.driver.find_elements(By.CSS_SELECTOR, "#all-rows thead button")[ms]
     numbers = lambda: [float(text.replace(",", "")) for text in self.visible(ms) if text != "\u2013"]
@@ -158,7 +157,7 @@ class Browser(unittest.TestCase):
     self.assertNotEqual(numbers(), sorted(numbers()))
     self.assertEqual(self.visible(ms)[-empty:], ["\u2013"] * empty)
 
-  def testWordsSayWhatTheRowsHold(self):
+  def test_words_say_what_the_rows_hold(self):
     text = self.driver.find_element(By.TAG_NAME, "body").text
     for part in (
       self.sweep.question,
@@ -173,7 +172,7 @@ class Browser(unittest.TestCase):
     for name in ("fastest", "failures", "all-rows", "all-counters", "floors", "environment"):
       self.assertTrue(self.driver.find_element(By.CSS_SELECTOR, f"#{name} caption").text, name)
 
-  def testSize(self):
+  def test_size(self):
     self.assertLess(os.path.getsize(self.file), 6_000_000)
 
 

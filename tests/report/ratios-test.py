@@ -8,14 +8,8 @@ from pathlib import Path
 
 import support
 import numpy
-import page
-import panels
-import pictures
-import plots
-import ratios
 import sample
-import scales
-import words
+from tessera_report import along_axis, error_time, page, panels, pictures, plots, ratios, scales, words
 
 
 class Summary(unittest.TestCase):
@@ -34,7 +28,7 @@ class Summary(unittest.TestCase):
     texts = lambda tag: [unescape(re.sub(r"<[^>]*>", "", cell)).strip() for cell in re.findall(rf"<{tag}\b.*?</{tag}>", found, re.S)]
     return dict(zip((re.sub("[\u2195\u2191\u2193\u00a0]", "", head).strip() for head in texts("th")), texts("td"), strict=True))
 
-  def wrongAgainst(self, truth):
+  def wrong_against(self, truth):
     """float32-plane, the fastest, is wrong against [truth] and right by its own oracle, or the other way round."""
 
     def change(row):
@@ -45,48 +39,48 @@ class Summary(unittest.TestCase):
 
     return change
 
-  def testTiesAreNamed(self):
+  def test_ties_are_named(self):
     """bitmask is four thousandths slower than exact, far within the noise: which is first is chance, that both are named is not."""
-    made = self.page(self.wrongAgainst(False))
-    row = self.cells(made.summary())
+    made = self.page(self.wrong_against(False))
+    row = self.cells(made.summary.html())
     names = {"tile=32 binning=exact edge=float32-plane", "tile=32 binning=bitmask edge=float32-plane"}
     self.assertEqual({row["fastest"], row["equal to it"]}, names)
-    self.assertRegex(made.outcome(), rf"^Fastest is {row['fastest']}: .*; equal to it is {row['equal to it']}\.$")
+    self.assertRegex(made.summary.outcome(), rf"^Fastest is {row['fastest']}: .*; equal to it is {row['equal to it']}\.$")
 
-  def testWithoutATieNoneIsNamed(self):
+  def test_without_a_tie_none_is_named(self):
     def change(row):
       if row["sweep"]["asked"]["binning"] == "bitmask":
         row["time_ns"]["samples"] = [2 * time for time in row["time_ns"]["samples"]]
-      return self.wrongAgainst(False)(row)
+      return self.wrong_against(False)(row)
 
     made = self.page(change)
-    self.assertEqual(self.cells(made.summary())["equal to it"], "\u2013")
-    self.assertNotIn("equal to it", made.outcome())
+    self.assertEqual(self.cells(made.summary.html())["equal to it"], "\u2013")
+    self.assertNotIn("equal to it", made.summary.outcome())
 
-  def testNotesOfAScene(self):
+  def test_notes_of_a_scene(self):
     """What the reader of a mesh had to say is on the page, once."""
 
     def change(row):
       row["scene"]["notes"] = ["ball.obj: 3 polygons are not convex: cut"]
-      return self.wrongAgainst(False)(row)
+      return self.wrong_against(False)(row)
 
     self.assertEqual(self.page(change).html().count("Scene ball: ball.obj: 3 polygons are not convex: cut."), 1)
 
-  def testErrorsCountFromTruth(self):
-    made = self.page(self.wrongAgainst(True))
-    row = self.cells(made.summary())
+  def test_errors_count_from_truth(self):
+    made = self.page(self.wrong_against(True))
+    row = self.cells(made.summary.html())
     exact = {"tile=32 binning=exact edge=int32", "tile=32 binning=bitmask edge=int32"}
     self.assertIn("(with errors)", row["fastest"])
     self.assertEqual({row["fastest without an error from truth"].split(",")[0], row["equal to that"]}, exact)
-    self.assertRegex(made.outcome(), "though not without errors.* Without an error it is tile=32 binning=.* edge=int32: ")
+    self.assertRegex(made.summary.outcome(), "though not without errors.* Without an error it is tile=32 binning=.* edge=int32: ")
 
-    row = self.cells(self.page(self.wrongAgainst(False)).summary())
+    row = self.cells(self.page(self.wrong_against(False)).summary.html())
     self.assertNotIn("(with errors)", row["fastest"])
     self.assertEqual(row["fastest without an error from truth"], "the same")
 
 
 class Ratios(unittest.TestCase):
-  def testPairsByRoundAndSession(self):
+  def test_pairs_by_round_and_session(self):
     # The machine is twice as slow in round 1, and three times in session 1: the ratio is 1.5 throughout.
     reference = {(0, 0): [10.0], (0, 1): [20.0], (1, 2): [30.0]}
     cell = {(0, 0): [15.0], (0, 1): [30.0], (1, 2): [45.0]}
@@ -94,17 +88,17 @@ class Ratios(unittest.TestCase):
     # A round that only one of them has is no pair, nor is one of another session.
     self.assertEqual(ratios.paired({(0, 0): [15.0], (1, 1): [1.0]}, reference), {0: [1.5]})
 
-  def testFramesOfATurnAreOneMedian(self):
+  def test_frames_of_a_turn_are_one_median(self):
     self.assertEqual(ratios.paired({(0, 0): [2.0, 100.0, 4.0]}, {(0, 0): [1.0, 2.0, 3.0]}), {0: [2.0]})
 
-  def testRatioIsMedianOfPairsWithQuartiles(self):
+  def test_ratio_is_median_of_pairs_with_quartiles(self):
     reference = {(0, turn): [10.0] for turn in range(5)}
     cell = {(0, turn): [time] for turn, time in enumerate((10.0, 20.0, 30.0, 40.0, 50.0))}
     found = ratios.ratio(cell, reference, {0: 1.1})
     self.assertEqual((found.median, found.low, found.high, found.count, found.floor), (3.0, 2.0, 4.0, 5, 1.1))
     self.assertIsNone(ratios.ratio(cell, {(1, 0): [1.0]}, {}))
 
-  def testVerdict(self):
+  def test_verdict(self):
     verdict = lambda median, floor: ratios.Ratio(median, median, median, 5, floor).verdict
     self.assertEqual(verdict(1.05, 1.06), "equal")
     self.assertEqual(verdict(1 / 1.05, 1.06), "equal")  # a floor is as wide below 1 as above
@@ -112,27 +106,27 @@ class Ratios(unittest.TestCase):
     self.assertEqual(verdict(0.9, 1.06), "faster")
     self.assertEqual(verdict(1.0001, None), "slower")  # without a floor nothing is called equal
 
-  def testFloorOfOneRoundIsItsRatio(self):
-    self.assertAlmostEqual(ratios.noiseFloor([1.25]), 1.25)
-    self.assertAlmostEqual(ratios.noiseFloor([0.8]), 1.25)
+  def test_floor_of_one_round_is_its_ratio(self):
+    self.assertAlmostEqual(ratios.noise_floor([1.25]), 1.25)
+    self.assertAlmostEqual(ratios.noise_floor([0.8]), 1.25)
 
-  def testFloorOfEqualTimesIsOne(self):
-    self.assertEqual(ratios.noiseFloor([1.0] * 7), 1.0)
+  def test_floor_of_equal_times_is_one(self):
+    self.assertEqual(ratios.noise_floor([1.0] * 7), 1.0)
 
-  def testFloorIsNoLessThanWhatWasSeen(self):
-    self.assertGreaterEqual(ratios.noiseFloor([1.2, 1.2, 1.2, 1.2, 1.2, 1.2, 1.2]), 1.2)
+  def test_floor_is_no_less_than_what_was_seen(self):
+    self.assertGreaterEqual(ratios.noise_floor([1.2, 1.2, 1.2, 1.2, 1.2, 1.2, 1.2]), 1.2)
 
-  def testFloorOfTwoRatiosByHand(self):
+  def test_floor_of_two_ratios_by_hand(self):
     # Of logs +-a and +-b a draw's median is the mean of two: |mean| is b with probability 1/8 (twice b, of one sign),
     # so that the 95th percentile is b itself.
-    self.assertAlmostEqual(ratios.noiseFloor([1.1, 1.3]), 1.3)
+    self.assertAlmostEqual(ratios.noise_floor([1.1, 1.3]), 1.3)
 
-  def testFloorShrinksWithRounds(self):
+  def test_floor_shrinks_with_rounds(self):
     few, many = [1.1, 0.9, 1.05], [1.1, 0.9, 1.05] * 20
-    self.assertLess(ratios.noiseFloor(many), ratios.noiseFloor(few))
-    self.assertEqual(ratios.noiseFloor(many), ratios.noiseFloor(many))
+    self.assertLess(ratios.noise_floor(many), ratios.noise_floor(few))
+    self.assertEqual(ratios.noise_floor(many), ratios.noise_floor(many))
 
-  def testFloorHoldsForTheSameCellTwice(self):
+  def test_floor_holds_for_the_same_cell_twice(self):
     # A cell that is the reference is called equal in some nineteen of twenty sweeps, with noise that both share on top.
     random = numpy.random.default_rng(3)
     equal = 0
@@ -141,11 +135,11 @@ class Ratios(unittest.TestCase):
       reference, twin, cell = (
         {(0, turn): [t] for turn, t in enumerate(drift * numpy.exp(random.normal(0, 0.03, 9)))} for _ in range(3)
       )
-      floors = {0: ratios.noiseFloor(ratios.paired(twin, reference)[0])}
+      floors = {0: ratios.noise_floor(ratios.paired(twin, reference)[0])}
       equal += ratios.ratio(cell, reference, floors).equal
     self.assertGreater(equal, 170)
 
-  def testWidestFloorOfTheSessions(self):
+  def test_widest_floor_of_the_sessions(self):
     times = {(0, 0): [1.0], (1, 1): [1.0]}
     self.assertEqual(ratios.ratio(times, times, {0: 1.01, 1: 1.2}).floor, 1.2)
 
@@ -160,10 +154,10 @@ class Sample(unittest.TestCase):
   def tearDownClass(cls):
     cls.folder.cleanup()
 
-  def testEachMachineHasItsOwnReference(self):
+  def test_each_machine_has_its_own_reference(self):
     self.assertEqual(self.sweep.machines(), ["AMD EPYC", "Intel Xeon"])
     for group in self.sweep.groups:
-      self.assertEqual(len({cell.fullKey for cell in group.cells}), 1)
+      self.assertEqual(len({cell.full_key for cell in group.cells}), 1)
     mine, other = (
       next(group for group in self.sweep.groups if group.cells[0].machine == machine)
       for machine in self.sweep.machines()
@@ -171,7 +165,7 @@ class Sample(unittest.TestCase):
     self.assertIsNone(mine.compare(other.candidates[1], mine.reference))
     self.assertAlmostEqual(other.reference.ratio.median, 1)
 
-  def testWhatIsWithinTheNoiseIsEqual(self):
+  def test_what_is_within_the_noise_is_equal(self):
     found = {"exact32": [], "bitmask8": []}
     for group in self.sweep.groups:
       for cell in group.candidates:
@@ -183,7 +177,7 @@ class Sample(unittest.TestCase):
     self.assertGreaterEqual(found["bitmask8"].count("equal"), len(found["bitmask8"]) - 1)
     self.assertGreaterEqual(len(found["bitmask8"]), 6)
 
-  def testResumedSessionsHaveTheirOwnFloor(self):
+  def test_resumed_sessions_have_their_own_floor(self):
     group = self.sweep.groups[0]
     self.assertEqual(sorted(group.floors), [0, 1])
     pairs = ratios.paired(group.twin.samples, group.reference.samples)
@@ -191,16 +185,16 @@ class Sample(unittest.TestCase):
       [len(pairs[session]) for session in (0, 1)], [4, 5]
     )  # three rounds of session 1, and two taken again
     self.assertEqual(group.candidates[1].ratio.floor, max(group.floors.values()))
-    self.assertEqual(group.candidates[1].ratio.count, sample.kRounds)  # only the reference was taken again
+    self.assertEqual(group.candidates[1].ratio.count, sample.ROUNDS)  # only the reference was taken again
 
-  def testFastestNamesItsEquals(self):
+  def test_fastest_names_its_equals(self):
     group = self.sweep.groups[0]
-    names = [words.cellName(cell, self.sweep.swept) for cell in group.fastest(group.candidates)]
+    names = [words.cell_name(cell, self.sweep.swept) for cell in group.fastest(group.candidates)]
     self.assertIn("tile=32 binning=exact edge=float32-plane", names)
     self.assertIn("tile=32 binning=bitmask edge=float32-plane", names)
     self.assertNotIn("tile=16 binning=exact edge=float32-plane", names)
 
-  def testPlotsAndWhatIsLeftOut(self):
+  def test_plots_and_what_is_left_out(self):
     made = plots.Plots(self.sweep, False)
     names = [plot.name for plot in made.list]
     for name in (
@@ -225,7 +219,7 @@ class Sample(unittest.TestCase):
     self.assertEqual(
       [panel.title for panel in timed.panels][:2], ["AMD EPYC, ball, 256 x 256", "AMD EPYC, ball, 512 x 512"]
     )
-    self.assertTrue(timed.xLog)
+    self.assertTrue(timed.x_log)
     self.assertEqual(len(timed.panels[0].points), 12)
     self.assertEqual([curve for curve, _, _ in timed.panels[0].levels], ["binning=none"])  # it has no tile
     self.assertEqual([x for x, _ in timed.panels[2].failed], [8, 8])
@@ -238,13 +232,13 @@ class Sample(unittest.TestCase):
       ["ball, 256 x 256", "ball, 512 x 512", "field, 256 x 256", "field, 512 x 512"],
     )
 
-  def testSoftwareDriversWhereAskedFor(self):
+  def test_software_drivers_where_asked_for(self):
     with tempfile.TemporaryDirectory() as folder:
-      sweep = support.read(sample.write(Path(folder)), allDevices=True)
+      sweep = support.read(sample.write(Path(folder)), all_devices=True)
       titles = [panel.title for panel in plots.Plots(sweep, True).list[0].panels]
       self.assertIn("AMD EPYC, ball, 256 x 256, vulkan (software)", titles)
 
-  def testWithoutErrorsTimesStandOnALine(self):
+  def test_without_errors_times_stand_on_a_line(self):
     def exact(row):
       row = support.only(cpu="AMD EPYC", device="cpu", edge=256)(row)
       if row:
@@ -264,32 +258,32 @@ class Sample(unittest.TestCase):
 
 
 class Parts(unittest.TestCase):
-  def testFront(self):
+  def test_front(self):
     point = lambda x, y: panels.Point(x, y, x, x, "", "")
     self.assertEqual(
-      plots.front([point(3, 1), point(1, 5), point(2, 6), point(2, 4), point(4, 1), point(5, 0.5)]),
+      error_time.front([point(3, 1), point(1, 5), point(2, 6), point(2, 4), point(4, 1), point(5, 0.5)]),
       [(1, 5), (2, 4), (3, 1), (5, 0.5)],
     )
 
-  def testLogarithmicAxes(self):
-    self.assertTrue(plots.isLogarithmic([8, 16, 64]))
-    self.assertTrue(plots.isLogarithmic([10, 100]))
-    self.assertTrue(plots.isLogarithmic([1.1, 2, 32]))
-    self.assertFalse(plots.isLogarithmic([0, 4, 8]))
-    self.assertFalse(plots.isLogarithmic([3, 4, 5]))
+  def test_logarithmic_axes(self):
+    self.assertTrue(along_axis.is_logarithmic([8, 16, 64]))
+    self.assertTrue(along_axis.is_logarithmic([10, 100]))
+    self.assertTrue(along_axis.is_logarithmic([1.1, 2, 32]))
+    self.assertFalse(along_axis.is_logarithmic([0, 4, 8]))
+    self.assertFalse(along_axis.is_logarithmic([3, 4, 5]))
 
-  def testTicks(self):
+  def test_ticks(self):
     self.assertEqual(scales.ticks(0.9, 11, True), [1, 2, 5, 10])
     self.assertEqual(scales.ticks(3.1, 3.9, True), [3.2, 3.4, 3.6, 3.8])
-    self.assertEqual(panels.errorTicks((0.05, 30), 0.1), ([0.1, 1, 2, 5, 10, 20], ["0", "1", "2", "5", "10", "20"]))
+    self.assertEqual(panels.error_ticks((0.05, 30), 0.1), ([0.1, 1, 2, 5, 10, 20], ["0", "1", "2", "5", "10", "20"]))
 
-  def testNumbers(self):
+  def test_numbers(self):
     self.assertEqual(
       [words.significant(value) for value in (0, 12, 1234.5, 0.012345, 2.5e-7)],
       ["0", "12", "1,234", "0.0123", "2.50e-07"],
     )
 
-  def testSmallerPictureKeepsTheWrongPixel(self):
+  def test_smaller_picture_keeps_the_wrong_pixel(self):
     pixels = numpy.full((1000, 700, 3), 230, numpy.uint8)
     pixels[100:400] = 190
     pixels[501, 333] = (0, 114, 178)  # id

@@ -6,8 +6,8 @@ import random
 import sys
 from pathlib import Path
 
-kSchema = 3
-kToml = """title = "Sample"
+SCHEMA = 3
+TOML = """title = "Sample"
 question = "Does the report show what the rows hold?"
 sizes = [256, 512]
 [scenes]
@@ -28,7 +28,7 @@ x-label = "triangles along an edge"
 heat = [["tile", "binning"]]
 figure = "ratio-against-tile"
 """
-kEpyc = {
+EPYC = {
   "cpu": "AMD EPYC",
   "os": "Linux 6.1 x86_64",
   "device": "AMD EPYC",
@@ -36,7 +36,7 @@ kEpyc = {
   "api": "cpu",
   "threads": 2,
 }
-kXeon = {
+XEON = {
   "cpu": "Intel Xeon",
   "os": "Linux 6.1 x86_64",
   "device": "Intel Xeon",
@@ -44,7 +44,7 @@ kXeon = {
   "api": "cpu",
   "threads": 8,
 }
-kPipe = {
+PIPE = {
   "cpu": "AMD EPYC",
   "os": "Linux 6.1 x86_64",
   "device": "llvmpipe",
@@ -52,8 +52,8 @@ kPipe = {
   "api": "vulkan 1.3",
   "correctness_only": True,
 }
-kStages = {"transform": 0.1, "setup": 0.15, "bin-count": 0.1, "bin-insert": 0.15, "raster-tiles": 0.5}
-kRounds = 7
+STAGES = {"transform": 0.1, "setup": 0.15, "bin-count": 0.1, "bin-insert": 0.15, "raster-tiles": 0.5}
+ROUNDS = 7
 
 
 def picture(path, edge):
@@ -67,9 +67,9 @@ def picture(path, edge):
   image.save(path)
 
 
-def rows(folder, machines=((kEpyc, "cpu", 1.0), (kPipe, "vulkan", 30.0), (kXeon, "cpu", 0.6))):
+def rows(folder, machines=((EPYC, "cpu", 1.0), (PIPE, "vulkan", 30.0), (XEON, "cpu", 0.6))):
   """Machines are (provenance, device as asked for, slowness). The times of a machine drift from round to round."""
-  sha256 = hashlib.sha256(kToml.encode()).hexdigest()
+  sha256 = hashlib.sha256(TOML.encode()).hexdigest()
   random_ = random.Random(7)
   cells = [
     {"tile": str(tile), "binning": binning, "edge": edge}
@@ -83,10 +83,10 @@ def rows(folder, machines=((kEpyc, "cpu", 1.0), (kPipe, "vulkan", 30.0), (kXeon,
     number, group = (0, 0) if device == "cpu" else (1000, 100)
     for scene, x, triangles in (("ball", 4, 5120), ("field", 64, 8192)):
       for edge in (256, 512):
-        drift = {turn: 1 + 0.3 * random_.random() for turn in range(-kRounds, kRounds)}
+        drift = {turn: 1 + 0.3 * random_.random() for turn in range(-ROUNDS, ROUNDS)}
         for index, asked in enumerate(cells):
           row = {
-            "schema_version": kSchema,
+            "schema_version": SCHEMA,
             "run_id": f"{machine['cpu']}-{number}",
             "variant": {"tile": "64", **asked, "sub-pixel": "8"},
             "scene": {"name": scene, "sha256": "0" * 64, "triangles": triangles, "size": [edge, edge]},
@@ -116,12 +116,12 @@ def rows(folder, machines=((kEpyc, "cpu", 1.0), (kPipe, "vulkan", 30.0), (kXeon,
           elif (scene, edge, asked["binning"]) == ("ball", 512, "none"):
             row |= {"status": "overflow", "message": "bin 3 holds 9000 of 8192"}
           times = lambda turns: [round(1e6 * ms * drift[turn] * random_.gauss(1, 0.01)) for turn in turns]
-          turns = list(range(kRounds))
+          turns = list(range(ROUNDS))
           sessions = [0 if turn < 4 else 1 for turn in turns]
           samples = times(turns)
           ordered = sorted(samples)
           if row["status"] == "ok":
-            median = ordered[kRounds // 2]
+            median = ordered[ROUNDS // 2]
             row["time_ns"] = {
               "samples": samples,
               "rounds": turns,
@@ -130,7 +130,7 @@ def rows(folder, machines=((kEpyc, "cpu", 1.0), (kPipe, "vulkan", 30.0), (kXeon,
               "min": ordered[0],
               "iqr": ordered[5] - ordered[1],
               "clock": "timestamp" if device == "vulkan" else "wall",
-              "stages": {stage: share * median for stage, share in kStages.items()},
+              "stages": {stage: share * median for stage, share in STAGES.items()},
             }
             if index < 2:  # a sweep that was resumed in round 4
               row["time_ns"]["again"] = {"samples": times([0, 1]), "rounds": [0, 1], "sessions": [1, 1]}
@@ -191,7 +191,7 @@ def rows(folder, machines=((kEpyc, "cpu", 1.0), (kPipe, "vulkan", 30.0), (kXeon,
         group += 1
 
 
-def write(folder, change=lambda row: row, toml=kToml, **options):
+def write(folder, change=lambda row: row, toml=TOML, **options):
   """A results folder; `change` may alter a row, or leave it out by giving None."""
   folder = Path(folder)
   folder.mkdir(parents=True, exist_ok=True)

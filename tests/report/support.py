@@ -6,14 +6,14 @@ import resource
 import subprocess
 import sys
 
-kSource = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(kSource / "experiments" / "report"))
+SOURCE = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(SOURCE / "experiments" / "report"))
 sys.path.insert(0, str(Path(__file__).parent))
 
-import rows
+from tessera_report import rows
 import sample
 
-kSchema = sample.kSchema
+SCHEMA = sample.SCHEMA
 
 
 def only(**wanted):
@@ -31,16 +31,16 @@ def only(**wanted):
   return change
 
 
-def read(folder, allDevices=False):
-  return rows.readSweep(Path(folder), kSchema, allDevices)
+def read(folder, all_devices=False):
+  return rows.read_sweep(Path(folder), SCHEMA, all_devices)
 
 
-def tessera(*arguments, largestFile=None, stdout=subprocess.PIPE, folder=None, **environment):
+def tessera(*arguments, largest_file=None, stdout=subprocess.PIPE, folder=None, **environment):
   """Runs the command that TESSERA names, in `folder`, with output as text. A limit on the size of a file, bytes, stands for a full disk."""
 
   def limit():
-    if largestFile is not None:
-      resource.setrlimit(resource.RLIMIT_FSIZE, (largestFile, largestFile))
+    if largest_file is not None:
+      resource.setrlimit(resource.RLIMIT_FSIZE, (largest_file, largest_file))
 
   return subprocess.run(
     [os.environ["TESSERA"], *map(str, arguments)],

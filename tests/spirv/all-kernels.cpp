@@ -8,8 +8,8 @@
 #include <iterator>
 #include <optional>
 #include <set>
-#include <sstream>
 
+#include "host/axes/settings.h"
 #include "host/devices/vulkan/spirv-module.h"
 #include "host/kernels/spirv-bounds.h"
 #include "host/kernels/spirv.h"
@@ -76,10 +76,7 @@ std::vector<KernelRequest> kernelsOf(const Stage& stage, Route route, std::size_
   return kernels;
 }
 
-std::vector<std::string> settingsOf(const KernelRequest& kernel) {
-  std::istringstream words(kernel.variantName);
-  return {std::istream_iterator<std::string>(words), {}};
-}
+std::vector<std::string> settingsOf(const KernelRequest& kernel) { return settingsIn(kernel.variantName); }
 
 std::vector<KernelRequest> coveringKernels(Route route, std::size_t strength) {
   std::vector<KernelRequest> all;

@@ -188,10 +188,17 @@ TEST_CASE("Sizes of rasters are checked", "[refusals]") {
   }
 }
 
+TEST_CASE("A variant is made from text as it is given and from its own", "[refusals]") {
+  const Variant variant(" tile=8\tcommit=two-pass\n binning=queue ");
+  CHECK(variant.values() == Variant{{"tile", "8"}, {"commit", "two-pass"}, {"binning", "queue"}}.values());
+  CHECK(Variant(variant.text()).values() == variant.values());
+  CHECK(Variant("").values().empty());
+}
+
 TEST_CASE("Unknown axes and values are refused", "[refusals]") {
-  const auto line = [](const char* assignment) {
+  const auto line = [](const char* settings) {
     try {
-      Variant().set(assignment);
+      const Variant variant(settings);
     } catch (const Error& error) {
       CHECK(error.code() == ExitCode::kUsage);
       return std::string(error.what());
@@ -203,4 +210,6 @@ TEST_CASE("Unknown axes and values are refused", "[refusals]") {
   CHECK_THAT(line("capacity=15"), Catch::Contains("from 16 to 65536"));
   CHECK_THAT(line("capacity=1e3"), Catch::Contains("from 16 to 65536"));
   CHECK_THAT(line("tile"), Catch::Contains("has no value; tile=8 or 16"));
+  CHECK_THAT(line("binning=exact capacity"), Catch::Contains("has no value; capacity=16 to capacity=65536"));
+  CHECK_THAT(line("tile=8 binning=exact tile=8"), Catch::Contains("--set tile=8: tile is set twice"));
 }

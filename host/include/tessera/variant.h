@@ -97,10 +97,12 @@ class Variant {
  public:
   Variant() = default;
   Variant(std::initializer_list<std::pair<std::string_view, std::string_view>> settings);
+  /// "axis=value axis=value", with blanks between the settings, as text() has them and `--set` takes them; "" sets
+  /// nothing. Throws kUsage for an unknown axis or value, naming those there are, for an axis without a value and for
+  /// an axis that is set twice.
+  explicit Variant(std::string_view settings);
   /// Throws kUsage for an unknown axis or value, naming those there are.
   void set(std::string_view axis, std::string_view value);
-  /// "axis=value".
-  void set(std::string_view assignment);
   bool has(std::string_view axis) const;
   /// The value, or `otherwise` where it is not set.
   std::string get(std::string_view axis, std::string_view otherwise = "") const;

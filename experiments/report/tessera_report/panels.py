@@ -2,14 +2,14 @@
 
 from dataclasses import dataclass, field
 
-import scales
+from . import scales
 
 # Okabe and Ito's colours for all kinds of sight, without the yellow, which is too light for lines on white. Shapes tell
 # the same.
-kColours = ["#0072B2", "#D55E00", "#009E73", "#E69F00", "#CC79A7", "#56B4E9", "#000000"]
-kShapes = ["circle", "square", "triangle-up", "diamond", "triangle-down", "cross", "triangle-right"]
+COLOURS = ["#0072B2", "#D55E00", "#009E73", "#E69F00", "#CC79A7", "#56B4E9", "#000000"]
+SHAPES = ["circle", "square", "triangle-up", "diamond", "triangle-down", "cross", "triangle-right"]
 # Neighbours in a bar differ in lightness, too.
-kStageColours = [
+STAGE_COLOURS = [
   "#0072B2",
   "#E69F00",
   "#009E73",
@@ -25,7 +25,7 @@ kStageColours = [
   "#EAAE7F",
   "#444444",
 ]
-kBreak = 3.2  # of an error axis: this far above where 0 is drawn, which is at least a decade below the least error
+BREAK = 3.2  # of an error axis: this far above where 0 is drawn, which is at least a decade below the least error
 
 
 @dataclass
@@ -64,18 +64,23 @@ class Plot:
   curves: list = field(default_factory=list)  # in the legend's order
   ticks: list = field(default_factory=list)  # values of the x axis: numbers or words
   labels: list = field(default_factory=list)  # their texts
-  xLog: bool = False
-  yLog: bool = True
+  x_log: bool = False
+  y_log: bool = True
   zero: float | None = None  # where an error of 0 is drawn, below a break of the axis
   rows: list = field(default_factory=list)  # heat: values of the y axis; bars: stages
 
 
+def stage_colours(plot):
+  """(stage, colour) of each stage of a plot of bars."""
+  return [(stage, STAGE_COLOURS[index % len(STAGE_COLOURS)]) for index, stage in enumerate(plot.rows)]
+
+
 def style(curves, curve):
   index = curves.index(curve)
-  return kColours[index % len(kColours)], kShapes[(index + index // len(kColours)) % len(kShapes)]
+  return COLOURS[index % len(COLOURS)], SHAPES[(index + index // len(COLOURS)) % len(SHAPES)]
 
 
-def errorTicks(span, zero):
+def error_ticks(span, zero):
   """Ticks and labels of an axis of errors, whose zero is drawn at `zero`, or of another logarithmic one."""
   if zero is None:
     found = scales.ticks(*span, True)
@@ -84,7 +89,7 @@ def errorTicks(span, zero):
   return [zero, *found], ["0", *(scales.text(tick) for tick in found)]
 
 
-def spansOf(plot, panel):
+def spans_of(plot, panel):
   """Domains of the axes. Times are each panel's own; ratios and errors are the same in all, to be compared."""
   spans = {}
   if plot.kind == "heat":
@@ -111,7 +116,7 @@ def spansOf(plot, panel):
       spans["y"] = scales.domain(heights(plot.panels), True)
   else:
     if not isinstance(plot.ticks[0], str):
-      spans["x"] = scales.domain(plot.ticks, plot.xLog)
+      spans["x"] = scales.domain(plot.ticks, plot.x_log)
     shared = not plot.name.startswith("against")
     low, high = scales.domain([v for v in heights(plot.panels if shared else [panel]) if v > 0], True)
     spans["y"] = (low, max(high, low * 1.2))

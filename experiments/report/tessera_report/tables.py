@@ -2,8 +2,8 @@
 
 from html import escape
 
-from markup import quantity, table, text
-import words
+from . import words
+from .markup import quantity, table, text
 
 
 class Tables:
@@ -18,7 +18,7 @@ class Tables:
       return "reference"
     return cell.ratio.verdict if cell.ratio else ""
 
-  def errorText(self, cell, source, name):
+  def error_text(self, cell, source, name):
     """With its range, where it differs from run to run."""
     shown, value = quantity(cell.error(source, name))
     samples = (
@@ -37,7 +37,7 @@ class Tables:
       *(text(cell.values.get(axis)) for axis in self.sweep.swept),
     ]
 
-  def identityHeads(self):
+  def identity_heads(self):
     return [
       ("cell", "number"),
       *((place, "short") for place in self.places),
@@ -48,15 +48,15 @@ class Tables:
     fields = [
       name
       for name in dict.fromkeys(
-        [self.plots.errorName, "coverage_mismatch", "id_mismatch", "depth_mismatch", "attribute_max", "psnr"]
+        [self.plots.error_name, "coverage_mismatch", "id_mismatch", "depth_mismatch", "attribute_max", "psnr"]
       )
-      if any(cell.error("error", name) for cell in self.sweep.cells) or name == self.plots.errorName
+      if any(cell.error("error", name) for cell in self.sweep.cells) or name == self.plots.error_name
     ]
     columns = [
       ("error", name) for name in fields if any(cell.error("error", name) is not None for cell in self.sweep.cells)
     ]
-    columns += [("truth_error", self.plots.errorName)] if self.sweep.truth else []
-    heads = self.identityHeads() + [
+    columns += [("truth_error", self.plots.error_name)] if self.sweep.truth else []
+    heads = self.identity_heads() + [
       ("status", "short"),
       ("ms", "number"),
       ("quartiles", "number"),
@@ -64,8 +64,8 @@ class Tables:
       ("verdict", "short"),
     ]
     heads += [(name + (" from truth" if source == "truth_error" else ""), "number") for source, name in columns]
-    anyReason = any(cell.message for cell in self.sweep.cells)
-    heads += [("reason", "reason")] * anyReason + [("command", "command")]
+    any_reason = any(cell.message for cell in self.sweep.cells)
+    heads += [("reason", "reason")] * any_reason + [("command", "command")]
     rows = []
     for cell in self.sweep.cells:
       row = self.identity(cell)
@@ -76,8 +76,8 @@ class Tables:
         text(" to ".join(words.significant(v) for v in cell.spread[1:]) if cell.timed else ""),
       ]
       row += [quantity(cell.ratio.median if cell.ratio else None), text(self.verdict(cell))]
-      row += [self.errorText(cell, source, name) for source, name in columns]
-      row += [text(cell.message)] * anyReason
+      row += [self.error_text(cell, source, name) for source, name in columns]
+      row += [text(cell.message)] * any_reason
       row += [(f"<code>{escape(cell.row.get('command', ''))}</code>", None)]
       rows.append(row)
     return (
@@ -106,7 +106,7 @@ class Tables:
     if not names:
       return None
     heads = (
-      self.identityHeads()
+      self.identity_heads()
       + [("ms", "number")]
       + [(name, "number") for name in names]
       + [("peak of buffers, KiB", "number")]

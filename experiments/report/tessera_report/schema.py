@@ -6,12 +6,11 @@ from pathlib import Path
 
 import jsonschema
 
-from refused import Refused
-import versions
-import visible
+from . import versions, visible
+from .refused import Refused
 
-kFile = Path(__file__).with_name("row.schema.json")
-kLongest = 16 << 20  # bytes of a line; one of a sweep has some five thousand
+FILE = Path(__file__).with_name("row.schema.json")
+LONGEST = 16 << 20  # bytes of a line; one of a sweep has some five thousand
 
 
 def short(value):
@@ -21,14 +20,14 @@ def short(value):
   return text if len(text) <= 40 else text[:37] + "..."
 
 
-kTypes = {"object": "an object", "array": "a list", "string": "text", "integer": "a whole number", "number": "a number", "boolean": "true or false", "null": "null"}
+TYPES = {"object": "an object", "array": "a list", "string": "text", "integer": "a whole number", "number": "a number", "boolean": "true or false", "null": "null"}
 
 
 def wanted(error):
   """What would be right, of one of jsonschema's errors."""
   rule, value = error.validator, error.validator_value
   if rule == "type":
-    return " or ".join(kTypes[name] for name in ([value] if isinstance(value, str) else value))
+    return " or ".join(TYPES[name] for name in ([value] if isinstance(value, str) else value))
   if rule == "enum":
     return "one of " + ", ".join(map(str, value))
   if rule in ("minimum", "maximum"):
@@ -47,7 +46,7 @@ def place(error):
 
 class Checker:
   def __init__(self):
-    schema = json.loads(kFile.read_text(encoding="utf-8"))
+    schema = json.loads(FILE.read_text(encoding="utf-8"))
     self.validator = jsonschema.Draft202012Validator(schema)
 
   def refusal(self, row):
@@ -80,7 +79,7 @@ def number(text):
 
 def parse(line):
   """The value of a line of bytes. Throws ValueError with what is wrong."""
-  if len(line) > kLongest:
+  if len(line) > LONGEST:
     raise ValueError(f"{len(line):,} bytes long")
   try:
     value = json.loads(line.decode("utf-8"), object_pairs_hook=unique, parse_constant=number)
@@ -110,9 +109,9 @@ def read(path, newest):
       if not isinstance(row, dict) or "schema_version" not in row:
         raise Refused(f"{where}: not a row; a line should be one row, as 'tessera sweep' writes it")
       version = row["schema_version"]
-      if type(version) is int and not versions.kOldest <= version <= newest:
+      if type(version) is int and not versions.OLDEST <= version <= newest:
         raise Refused(
-          f"{where}: a row of schema version {short(version)}; this report reads versions {versions.kOldest} to"
+          f"{where}: a row of schema version {short(version)}; this report reads versions {versions.OLDEST} to"
           f" {newest}: make it with the tessera that made the rows, or run the sweep again"
         )
       refusal = checker.refusal(row)

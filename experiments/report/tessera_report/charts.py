@@ -4,18 +4,17 @@ import math
 
 import altair as alt
 
-import panels
-import scales
+from . import panels, scales
 
-kHeight = 220
-kInk, kFaint = "#222222", "#8a8a8a"
-kConfig = {
+HEIGHT = 220
+INK, FAINT = "#222222", "#8a8a8a"
+CONFIG = {
   "font": "system-ui, sans-serif",
   "background": None,
   "view": {"stroke": "#cccccc"},
   "axis": {
-    "labelColor": kInk,
-    "titleColor": kInk,
+    "labelColor": INK,
+    "titleColor": INK,
     "titleFontWeight": "normal",
     "labelFontSize": 11,
     "titleFontSize": 12,
@@ -24,7 +23,7 @@ kConfig = {
     "tickColor": "#999999",
     "labelLimit": 240,
   },
-  "legend": {"labelColor": kInk, "titleColor": kInk, "titleFontWeight": "normal"},
+  "legend": {"labelColor": INK, "titleColor": INK, "titleFontWeight": "normal"},
 }
 
 
@@ -62,7 +61,7 @@ def words(kind, title, field, order):
   )
 
 
-def curveScales(curves):
+def curve_scales(curves):
   styles = [panels.style(curves, curve) for curve in curves]
   return (
     alt.Color("curve:N", legend=None, scale=alt.Scale(domain=curves, range=[colour for colour, _ in styles])),
@@ -70,14 +69,14 @@ def curveScales(curves):
   )
 
 
-def breakOf(plot, spans):
+def break_of(plot, spans):
   """The strip for errors of 0, and the break above it."""
   return [
-    alt.Chart(data([{"low": spans["y"][0], "high": plot.zero * panels.kBreak}]))
+    alt.Chart(data([{"low": spans["y"][0], "high": plot.zero * panels.BREAK}]))
     .mark_rect(color="#f3f1ea")
     .encode(y=alt.Y("low:Q"), y2="high"),
-    alt.Chart(data([{"y": plot.zero * panels.kBreak}]))
-    .mark_rule(color=kFaint, strokeDash=[2, 3])
+    alt.Chart(data([{"y": plot.zero * panels.BREAK}]))
+    .mark_rule(color=FAINT, strokeDash=[2, 3])
     .encode(y=alt.Y("y:Q")),
   ]
 
@@ -101,13 +100,13 @@ def joined(panel, x, y, colour):
   return layers
 
 
-def pointsOf(panel):
+def points_of(panel):
   return [{"x": p.x, "y": p.y, "low": p.low, "high": p.high, "curve": p.curve, "says": p.says} for p in panel.points]
 
 
 def behind(plot, panel, spans, **along):
   """What lies behind all marks: the strip of errors of 0, and the A/A band along the axis of times."""
-  layers = breakOf(plot, spans) if plot.zero else []
+  layers = break_of(plot, spans) if plot.zero else []
   if panel.band:
     band = alt.Chart(data([{"low": panel.band[0], "high": panel.band[1]}]))
     layers.append(band.mark_rect(color="#bbbbbb", opacity=0.45).encode(**along))
@@ -115,20 +114,20 @@ def behind(plot, panel, spans, **along):
 
 
 def precision(plot, panel, spans):
-  colour, shape = curveScales(plot.curves)
-  rows = pointsOf(panel)
-  ticksX = scales.ticks(*spans["x"], True)
-  x = axis(alt.X, plot.x, "x", spans["x"], ticksX, [scales.text(tick) for tick in ticksX], True)
+  colour, shape = curve_scales(plot.curves)
+  rows = points_of(panel)
+  ticks_x = scales.ticks(*spans["x"], True)
+  x = axis(alt.X, plot.x, "x", spans["x"], ticks_x, [scales.text(tick) for tick in ticks_x], True)
   if plot.kind == "strip":
     y = words(alt.Y, None, "y", plot.rows)
   else:
-    y = axis(alt.Y, plot.y, "y", spans["y"], *panels.errorTicks(spans["y"], plot.zero), True)
+    y = axis(alt.Y, plot.y, "y", spans["y"], *panels.error_ticks(spans["y"], plot.zero), True)
   layers = behind(plot, panel, spans, x=alt.X("low:Q"), x2="high")
   layers += joined(panel, x, y, colour)
   if len(panel.front) > 1:
     layers.append(
       alt.Chart(data([{"x": fx, "y": fy} for fx, fy in panel.front]))
-      .mark_line(interpolate="step-after", color=kFaint, strokeWidth=1.2)
+      .mark_line(interpolate="step-after", color=FAINT, strokeWidth=1.2)
       .encode(x=x, y=y, order="x:Q")
     )
   layers.append(alt.Chart(data(rows)).mark_rule(opacity=0.6).encode(x=alt.X("low:Q"), x2="high", y=y, color=colour))
@@ -137,25 +136,25 @@ def precision(plot, panel, spans):
     .mark_point(filled=True, size=64, opacity=0.9)
     .encode(x=x, y=y, color=colour, shape=shape, tooltip=alt.Tooltip("says:N", title=" "))
   )
-  return alt.layer(*layers).properties(height=kHeight if plot.kind == "precision" else 26 * len(plot.rows))
+  return alt.layer(*layers).properties(height=HEIGHT if plot.kind == "precision" else 26 * len(plot.rows))
 
 
 def lines(plot, panel, spans):
-  colour, shape = curveScales(plot.curves)
-  isWords = isinstance(plot.ticks[0], str)
-  rows = pointsOf(panel)
-  if isWords:
+  colour, shape = curve_scales(plot.curves)
+  is_words = isinstance(plot.ticks[0], str)
+  rows = points_of(panel)
+  if is_words:
     x = words(alt.X, plot.x, "x", plot.ticks)
   else:
-    x = axis(alt.X, plot.x, "x", spans["x"], plot.ticks, plot.labels, plot.xLog)
-  y = axis(alt.Y, plot.y, "y", spans["y"], *panels.errorTicks(spans["y"], plot.zero), True)
-  offset = {"xOffset": alt.XOffset("curve:N", scale=alt.Scale(domain=plot.curves))} if isWords else {}
+    x = axis(alt.X, plot.x, "x", spans["x"], plot.ticks, plot.labels, plot.x_log)
+  y = axis(alt.Y, plot.y, "y", spans["y"], *panels.error_ticks(spans["y"], plot.zero), True)
+  offset = {"xOffset": alt.XOffset("curve:N", scale=alt.Scale(domain=plot.curves))} if is_words else {}
   layers = behind(plot, panel, spans, y=alt.Y("low:Q"), y2="high")
   if panel.bands:
     bands = alt.Chart(data([{"x": bx, "low": low, "high": high} for bx, low, high in panel.bands]))
     bands = (
       bands.mark_rect(color="#bbbbbb", opacity=0.45)
-      if isWords
+      if is_words
       else bands.mark_rule(color="#bbbbbb", opacity=0.45, strokeWidth=14)
     )
     layers.append(bands.encode(x=x, y=alt.Y("low:Q"), y2="high"))
@@ -177,10 +176,10 @@ def lines(plot, panel, spans):
   if panel.failed:
     layers.append(
       alt.Chart(data([{"x": fx, "says": says} for fx, says in panel.failed]))
-      .mark_point(shape="M-1,-1L1,1M-1,1L1,-1", size=30, color=kInk, strokeWidth=1.5, filled=False)
-      .encode(x=x, y=alt.value(kHeight - 7), tooltip=alt.Tooltip("says:N", title=" "))
+      .mark_point(shape="M-1,-1L1,1M-1,1L1,-1", size=30, color=INK, strokeWidth=1.5, filled=False)
+      .encode(x=x, y=alt.value(HEIGHT - 7), tooltip=alt.Tooltip("says:N", title=" "))
     )
-  return alt.layer(*layers).properties(height=kHeight)
+  return alt.layer(*layers).properties(height=HEIGHT)
 
 
 def heat(plot, panel, spans):
@@ -208,7 +207,7 @@ def heat(plot, panel, spans):
       .encode(x=x, y=y, tooltip=alt.Tooltip("says:N", title=" "))
     )
   layers.append(
-    alt.Chart(data([{**row, "ink": "#ffffff" if (row["value"] or 0) > middle else kInk} for row in rows]))
+    alt.Chart(data([{**row, "ink": "#ffffff" if (row["value"] or 0) > middle else INK} for row in rows]))
     .mark_text(fontSize=11)
     .encode(x=x, y=y, text="text:N", color=alt.Color("ink:N", scale=None))
   )
@@ -221,7 +220,7 @@ def bars(plot, panel, spans):
     {"bar": bar, "stage": stage, "order": plot.rows.index(stage), "ms": ms, "says": says}
     for bar, stage, ms, says in panel.cells
   ]
-  colours = [panels.kStageColours[index % len(panels.kStageColours)] for index in range(len(plot.rows))]
+  colours = [colour for _, colour in panels.stage_colours(plot)]
   return (
     alt.Chart(data(rows))
     .mark_bar(stroke="white", strokeWidth=0.5)
@@ -239,7 +238,7 @@ def bars(plot, panel, spans):
 def spec(plot, panel):
   """The panel's Vega-Lite as a dictionary, with the words that a screen reader gets."""
   make = {"precision": precision, "strip": precision, "lines": lines, "heat": heat, "bars": bars}[plot.kind]
-  chart = make(plot, panel, panels.spansOf(plot, panel))
+  chart = make(plot, panel, panels.spans_of(plot, panel))
   number = len(panel.points) or len(panel.cells)
   about = (
     f"{plot.title}{': ' + panel.title if panel.title else ''}. {number} marks; the table of all rows has the numbers."

@@ -8,7 +8,8 @@ import numpy
 # Samples of a cell, in nanoseconds: (session, round) -> the frames of its turn in that round.
 Samples = dict[tuple[int, int], list[float]]
 
-kDraws = 4000  # of the bootstrap: its 95th percentile is then steady to a few per cent of itself
+CONFIDENCE = 0.95  # of the noise floor
+DRAWS = 4000  # of the bootstrap: its 95th percentile is then steady to a few per cent of itself
 
 
 def spread(values):
@@ -28,7 +29,7 @@ def paired(a: Samples, b: Samples) -> dict[int, list[float]]:
   return ratios
 
 
-def noiseFloor(ratios) -> float:
+def noise_floor(ratios) -> float:
   """A factor >= 1: how far from 1 the median of as many paired ratios gets though both cells are the same one.
 
   `ratios` are of the reference to its twin (A/A). Neither of the two comes first, so r and 1/r are equally likely: each
@@ -37,10 +38,10 @@ def noiseFloor(ratios) -> float:
   that was observed. It needs rounds: of one there is but one ratio to draw from, of two the larger is the floor."""
   logs = numpy.log(numpy.asarray(ratios, float))
   random = numpy.random.Generator(numpy.random.PCG64(1))  # a fixed seed: the same rows give the same page
-  shape = (kDraws, len(logs))
+  shape = (DRAWS, len(logs))
   draws = logs[random.integers(0, len(logs), shape)] * random.choice([-1.0, 1.0], shape)
   medians = numpy.abs(numpy.median(draws, axis=1))
-  return math.exp(max(float(numpy.quantile(medians, 0.95)), abs(float(numpy.median(logs)))))
+  return math.exp(max(float(numpy.quantile(medians, CONFIDENCE)), abs(float(numpy.median(logs)))))
 
 
 @dataclass
@@ -65,9 +66,9 @@ class Ratio:
 
 def ratio(a: Samples, b: Samples, floors: dict[int, float]) -> Ratio | None:
   """None where no round has both. Rounds of several sessions have the widest floor of these sessions."""
-  bySession = paired(a, b)
-  values = [value for values in bySession.values() for value in values]
+  by_session = paired(a, b)
+  values = [value for values in by_session.values() for value in values]
   if not values:
     return None
-  known = [floors[session] for session in bySession if session in floors]
+  known = [floors[session] for session in by_session if session in floors]
   return Ratio(*spread(values), len(values), max(known) if known else None)

@@ -3,7 +3,7 @@
 import re
 
 # C0 but the line's end and the tab, DEL, C1; marks, overrides and isolates of direction; ends of lines that are not one.
-kObeyed = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069\ufeff\ud800-\udfff\ufffe\uffff]")
+OBEYED = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069\ufeff\ud800-\udfff\ufffe\uffff]")
 
 
 def escaped(found):
@@ -14,10 +14,10 @@ def escaped(found):
 
 def visible(text):
   """As host/support/terminal.cpp has it: an escape is "\\u001b"."""
-  return kObeyed.sub(escaped, text)
+  return OBEYED.sub(escaped, text)
 
 
-def oneLine(text):
+def one_line(text):
   """The same of a message: ends of lines are blanks."""
   return visible(" ".join(str(text).split("\n")))
 

@@ -9,7 +9,7 @@ import shutil
 import stat
 import tempfile
 
-from refused import Refused
+from .refused import Refused
 
 
 def lock(folder):
@@ -23,7 +23,7 @@ def lock(folder):
     return None
 
 
-def clearTemporaries(parent, stem):
+def clear_temporaries(parent, stem):
   """Removes what killed runs left, which nobody holds, as host/support/temporary.cpp does."""
   for entry in list(os.scandir(parent)):
     if re.fullmatch(re.escape(stem) + r"\.\d+-[a-z0-9_]+\.tmp", entry.name) and entry.is_dir(follow_symlinks=False):
@@ -51,7 +51,7 @@ def beside(path):
   """A new file to write, in a folder of its own beside `path`; synced and renamed over it at the end. Symbolic links lead to their target."""
   target = Path(os.path.realpath(path))
   stem = target.name.encode()[:100].decode(errors="ignore")
-  clearTemporaries(target.parent, stem)
+  clear_temporaries(target.parent, stem)
   with tempfile.TemporaryDirectory(dir=target.parent, prefix=f"{stem}.{os.getpid()}-", suffix=".tmp") as folder:
     held = lock(folder)
     new = Path(folder) / "new"
@@ -65,12 +65,12 @@ def beside(path):
       os.close(held)
 
 
-def writeBeside(path, content):
+def write_beside(path, content):
   with writing(path), beside(path) as new:
     new.write_bytes(content)
 
 
-def checkApart(path, rows):
+def check_apart(path, rows):
   """Refuses an output that is no file, or is one that the report reads, under whatever name."""
   if path.exists() and not path.is_file():
     raise Refused(f"{path}: is no file; a file name would do")

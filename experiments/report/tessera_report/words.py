@@ -3,7 +3,7 @@
 import math
 
 # What a field of `error` counts or measures.
-kErrors = {
+ERRORS = {
   "coverage_mismatch": "pixels covered in one image only",
   "id_mismatch": "pixels with another triangle",
   "depth_mismatch": "pixels with another depth",
@@ -36,7 +36,7 @@ def percent(factor):
   return f"{significant(100 * (factor - 1), 2)} %"
 
 
-def axisName(name, sweep):
+def axis_name(name, sweep):
   if name == "x":
     return sweep.plot.get("x-label", "x")
   return {"size": "raster, pixels", "threads": "threads", "tile": "tile, pixels"}.get(name, name)
@@ -46,7 +46,7 @@ def place(name, value):
   return count(int(value), "thread") if name == "threads" else value
 
 
-def cellName(cell, axes):
+def cell_name(cell, axes):
   """The cell's values of some axes: "tile=8 binning=exact"."""
   return " ".join(f"{axis}={cell.values[axis]}" for axis in axes if axis in cell.values) or "the only cell"
 
@@ -57,7 +57,7 @@ def count(number, one, many=None):
 
 def pixels(number, field):
   """ "1 pixel with another depth", "1,234 pixels ..."."""
-  name = kErrors.get(field, field)
+  name = ERRORS.get(field, field)
   return f"{significant(number)} {name.replace('pixels', 'pixel', 1) if number == 1 else name}"
 
 

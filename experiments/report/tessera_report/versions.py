@@ -1,6 +1,6 @@
 """Rows of earlier schema versions, as those of the newest one."""
 
-kOldest = 2  # that is still read
+OLDEST = 2  # that is still read
 
 
 def held(row):
@@ -15,16 +15,16 @@ def held(row):
   return found | ({"attribute_mismatch"} if "attribute" in row["scene"] else set())
 
 
-kCounted = ("id_mismatch", "depth_mismatch", "hit_count_mismatch", "attribute_mismatch", "depth_max_ulp", "depth_max_abs")
+COUNTED = ("id_mismatch", "depth_mismatch", "hit_count_mismatch", "attribute_mismatch", "depth_max_ulp", "depth_max_abs")
 
 
 def raised(row):
   """The row in the newest version."""
-  if row["schema_version"] > kOldest or not ({"error", "truth_error"} & row.keys()):
+  if row["schema_version"] > OLDEST or not ({"error", "truth_error"} & row.keys()):
     return row
   if row.get("error", {}).get("id_mismatch") is not None and "id_mismatch" in held(row):
     row["error"] = {**row["error"], "winner_mismatch": row["error"]["id_mismatch"]}
-  absent = [name for name in kCounted if name not in held(row)]
+  absent = [name for name in COUNTED if name not in held(row)]
   for part in ("error", "truth_error", "error_samples"):
     if part in row:
       row[part] = {**row[part], **{name: None for name in absent if name in row[part] and part != "error_samples"}}

@@ -16,13 +16,12 @@ from matplotlib import colors, pyplot
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-import panels as panels_
-import scales
+from . import panels as panels_, scales
 
-kColumn, kGap = 3.35, 0.2  # inches: a column of a two-column page, and the space between two
-kPanelHeight = 2.1
-kMostPanels = 6  # of a file; the others go on to the next page
-kMarkers = {
+COLUMN, GAP = 3.35, 0.2  # inches: a column of a two-column page, and the space between two
+PANEL_HEIGHT = 2.1
+MOST_PANELS = 6  # of a file; the others go on to the next page
+MARKERS = {
   "circle": "o",
   "square": "s",
   "triangle-up": "^",
@@ -31,7 +30,7 @@ kMarkers = {
   "cross": "P",
   "triangle-right": ">",
 }
-kStyle = {
+STYLE = {
   "font.family": "DejaVu Sans",
   "font.size": 7,
   "axes.titlesize": 7,
@@ -70,9 +69,9 @@ def words(axis, order):
   axis.set_ticks(range(len(order)), order)
 
 
-def breakOf(axes, plot, spans):
-  axes.axhspan(spans["y"][0], plot.zero * panels_.kBreak, color="#f3f1ea", zorder=0.5, linewidth=0)
-  axes.axhline(plot.zero * panels_.kBreak, color="#8a8a8a", linewidth=0.7, dashes=(2, 2))
+def break_of(axes, plot, spans):
+  axes.axhspan(spans["y"][0], plot.zero * panels_.BREAK, color="#f3f1ea", zorder=0.5, linewidth=0)
+  axes.axhline(plot.zero * panels_.BREAK, color="#8a8a8a", linewidth=0.7, dashes=(2, 2))
 
 
 def joined(axes, plot, panel):
@@ -94,9 +93,9 @@ def precision(axes, plot, panel, spans):
     words(axes.yaxis, plot.rows)
     axes.set_ylim(len(plot.rows) - 0.5, -0.5)
   else:
-    numbers(axes.yaxis, spans["y"], *panels_.errorTicks(spans["y"], plot.zero), True)
+    numbers(axes.yaxis, spans["y"], *panels_.error_ticks(spans["y"], plot.zero), True)
   if plot.zero:
-    breakOf(axes, plot, spans)
+    break_of(axes, plot, spans)
   if panel.band:
     axes.axvspan(*panel.band, color="#bbbbbb", alpha=0.45, linewidth=0)
   joined(axes, plot, panel)
@@ -105,31 +104,31 @@ def precision(axes, plot, panel, spans):
   for point in panel.points:
     colour, shape = panels_.style(plot.curves, point.curve)
     axes.plot([point.low, point.high], [place(point.y)] * 2, color=colour, alpha=0.6, linewidth=0.7)
-    axes.plot([point.x], [place(point.y)], color=colour, marker=kMarkers[shape], markeredgewidth=0)
+    axes.plot([point.x], [place(point.y)], color=colour, marker=MARKERS[shape], markeredgewidth=0)
 
 
 def lines(axes, plot, panel, spans):
-  isWords = isinstance(plot.ticks[0], str)
-  if isWords:
+  is_words = isinstance(plot.ticks[0], str)
+  if is_words:
     words(axes.xaxis, plot.labels)
     axes.set_xlim(-0.5, len(plot.ticks) - 0.5)
     if max(map(len, plot.labels)) * len(plot.labels) > 44:
       axes.tick_params(axis="x", labelrotation=30)
   else:
     crowded = sum(map(len, plot.labels)) > 36  # then round numbers, not the values themselves
-    ticks = scales.ticks(*spans["x"], plot.xLog) if crowded else plot.ticks
+    ticks = scales.ticks(*spans["x"], plot.x_log) if crowded else plot.ticks
     texts = [scales.text(tick) for tick in ticks] if crowded else plot.labels
-    numbers(axes.xaxis, spans["x"], ticks, texts, plot.xLog)
-  numbers(axes.yaxis, spans["y"], *panels_.errorTicks(spans["y"], plot.zero), True)
+    numbers(axes.xaxis, spans["x"], ticks, texts, plot.x_log)
+  numbers(axes.yaxis, spans["y"], *panels_.error_ticks(spans["y"], plot.zero), True)
   # Curves stand side by side on an axis of words, as points there are not joined.
   shift = lambda curve: 0.7 * ((plot.curves.index(curve) + 0.5) / len(plot.curves) - 0.5)
-  place = lambda x, curve: plot.ticks.index(x) + shift(curve) if isWords else x
+  place = lambda x, curve: plot.ticks.index(x) + shift(curve) if is_words else x
   if plot.zero:
-    breakOf(axes, plot, spans)
+    break_of(axes, plot, spans)
   if panel.band:
     axes.axhspan(*panel.band, color="#bbbbbb", alpha=0.45, linewidth=0)
   for x, low, high in panel.bands:
-    if isWords:
+    if is_words:
       axes.add_patch(
         pyplot.Rectangle((plot.ticks.index(x) - 0.4, low), 0.8, high - low, color="#bbbbbb", alpha=0.45, linewidth=0)
       )
@@ -142,8 +141,8 @@ def lines(axes, plot, panel, spans):
     colour, shape = panels_.style(plot.curves, point.curve)
     x = place(point.x, point.curve)
     axes.plot([x, x], [point.low, point.high], color=colour, alpha=0.6, linewidth=0.7)
-    axes.plot([x], [point.y], color=colour, marker=kMarkers[shape], markeredgewidth=0)
-  for x in sorted({plot.ticks.index(x) if isWords else x for x, _ in panel.failed}):
+    axes.plot([x], [point.y], color=colour, marker=MARKERS[shape], markeredgewidth=0)
+  for x in sorted({plot.ticks.index(x) if is_words else x for x, _ in panel.failed}):
     axes.plot([x], [0.035], color="#222222", marker="x", markersize=3, transform=axes.get_xaxis_transform())
 
 
@@ -180,30 +179,19 @@ def bars(axes, plot, panel, spans):
   order = list(dict.fromkeys(bar for bar, _, _, _ in panel.cells))
   left = dict.fromkeys(order, 0.0)
   cells = {(bar, stage): ms for bar, stage, ms, _ in panel.cells}
-  for index, stage in enumerate(plot.rows):
+  for stage, colour in panels_.stage_colours(plot):
     for row, bar in enumerate(order):
       ms = cells.get((bar, stage), 0)
-      axes.barh(
-        row,
-        ms,
-        left=left[bar],
-        height=0.8,
-        color=panels_.kStageColours[index % len(panels_.kStageColours)],
-        edgecolor="white",
-        linewidth=0.3,
-      )
+      axes.barh(row, ms, left=left[bar], height=0.8, color=colour, edgecolor="white", linewidth=0.3)
       left[bar] += ms
   words(axes.yaxis, order)
   axes.set_ylim(len(order) - 0.5, -0.5)
   axes.grid(axis="y", visible=False)
 
 
-def legendOf(plot):
+def legend_of(plot):
   if plot.kind == "bars":
-    return [
-      Patch(color=panels_.kStageColours[index % len(panels_.kStageColours)], label=stage)
-      for index, stage in enumerate(plot.rows)
-    ]
+    return [Patch(color=colour, label=stage) for stage, colour in panels_.stage_colours(plot)]
   if plot.kind in ("heat", "strip") or len(plot.curves) < 2:
     return []
   handles = []
@@ -214,7 +202,7 @@ def legendOf(plot):
         [],
         [],
         color=colour,
-        marker=kMarkers[shape],
+        marker=MARKERS[shape],
         markeredgewidth=0,
         label=curve,
         linestyle="-" if plot.kind == "lines" and not isinstance(plot.ticks[0], str) else "",
@@ -223,23 +211,23 @@ def legendOf(plot):
   return handles
 
 
-def heightOf(plot, panel):
+def height_of(plot, panel):
   """Inches of a panel, its title and axis included."""
   if plot.kind == "bars":
     return 0.5 + 0.13 * len({bar for bar, _, _, _ in panel.cells})
   if plot.kind in ("heat", "strip"):
     return 0.65 + 0.22 * len(plot.rows)
-  return kPanelHeight
+  return PANEL_HEIGHT
 
 
 def draw(plot, panels):
   across = 1 if len(panels) == 1 else 2
   rows = [panels[first : first + across] for first in range(0, len(panels), across)]
-  heights = [max(heightOf(plot, panel) for panel in row) for row in rows]
-  legend = legendOf(plot)
+  heights = [max(height_of(plot, panel) for panel in row) for row in rows]
+  legend = legend_of(plot)
   # Many words with many curves each take the width of a page.
   crowded = plot.kind == "lines" and isinstance(plot.ticks[0], str) and len(plot.ticks) * len(plot.curves) > 30
-  width = 2 * kColumn + kGap if across == 2 or crowded else kColumn
+  width = 2 * COLUMN + GAP if across == 2 or crowded else COLUMN
   longest = max((len(handle.get_label()) for handle in legend), default=1)
   columns = max(1, min(len(legend), int(width / (0.35 + 0.058 * longest)))) if legend else 1
   top = 0.06 + 0.14 * math.ceil(len(legend) / columns)
@@ -260,7 +248,7 @@ def draw(plot, panels):
         axes.set_axis_off()
         continue
       panel = members[column]
-      make(axes, plot, panel, panels_.spansOf(plot, panel))
+      make(axes, plot, panel, panels_.spans_of(plot, panel))
       axes.set_title(panel.title)
       axes.set_xlabel(plot.x)
       axes.set_ylabel(plot.y if column == 0 else "")
@@ -273,8 +261,8 @@ def draw(plot, panels):
 
 def files(plot):
   """(name, kind, bytes) of a plot's files."""
-  pages = [plot.panels[first : first + kMostPanels] for first in range(0, len(plot.panels), kMostPanels)]
-  with matplotlib.rc_context(kStyle):
+  pages = [plot.panels[first : first + MOST_PANELS] for first in range(0, len(plot.panels), MOST_PANELS)]
+  with matplotlib.rc_context(STYLE):
     for page, panels in enumerate(pages, 1):
       figure = draw(plot, panels)
       figure.draw_without_rendering()

@@ -10,15 +10,15 @@ import numpy
 from PIL import Image
 import png
 
-from refused import Refused
+from .refused import Refused
 
 # Of the pictures on the page, at most; the largest that fits the budget is taken. The page shows none smaller than it
 # is, or a single wrong pixel could be lost on the way to the screen.
-kEdge = 256
-kHalvings = 2
-kBudget = 3_000_000  # bytes of all pictures, as they stand in the page
-kLargest = 32768  # pixels along an edge of a raster
-kWhole = 1 << 24  # pixels that are read at once; Pillow would take 4 GB for the largest raster
+EDGE = 256
+HALVINGS = 2
+BUDGET = 3_000_000  # bytes of all pictures, as they stand in the page
+LARGEST = 32768  # pixels along an edge of a raster
+WHOLE = 1 << 24  # pixels that are read at once; Pillow would take 4 GB for the largest raster
 
 
 def fold(rows, factor):
@@ -43,7 +43,7 @@ def pool(pixels, edge):
   return numpy.stack([fold(pixels[first : first + factor], factor) for first in range(0, height, factor)]), factor
 
 
-def poolRows(rows, width, height, edge):
+def pool_rows(rows, width, height, edge):
   """The same of rows as they come, so that no more than a block's are held."""
   factor = -(-max(height, width) // edge)
   small, block = [], []
@@ -57,7 +57,7 @@ def poolRows(rows, width, height, edge):
   return numpy.stack(small), factor
 
 
-def placeOf(folder, name, where):
+def place_of(folder, name, where):
   """The picture's file. Nothing outside the folder is read, whatever a row says."""
   path, root = folder / name, folder.resolve()
   inside = not Path(name).is_absolute() and ".." not in Path(name).parts and path.resolve().is_relative_to(root)
@@ -67,28 +67,26 @@ def placeOf(folder, name, where):
 
 
 def read(path):
-  """(pixels with both sides at most kEdge, factor, size) of a PNG. Throws OSError for what is none."""
+  """(pixels with both sides at most EDGE, factor, size) of a PNG. Throws OSError for what is none."""
   if not path.is_file():
     raise OSError("not a file")
   # The limit is ours: Pillow's own is for pictures from strangers that are read whole.
   Image.MAX_IMAGE_PIXELS = None
   with Image.open(path, formats=["PNG"]) as image:
     width, height = size = image.size
-    if max(size) > kLargest:
-      raise OSError(f"larger than {kLargest} pixels")
-    if width * height <= kWhole:
-      return *pool(numpy.asarray(image.convert("RGB")), kEdge), size
+    if max(size) > LARGEST:
+      raise OSError(f"larger than {LARGEST} pixels")
+    if width * height <= WHOLE:
+      return *pool(numpy.asarray(image.convert("RGB")), EDGE), size
   try:
     with path.open("rb") as file:
       _, _, rows, about = png.Reader(file=file).asRGB8()
-      return *poolRows(rows, width, height, kEdge), size
+      return *pool_rows(rows, width, height, EDGE), size
   except (png.Error, ValueError) as error:
     raise OSError(str(error)) from None
 
 
-def encode(pixels):
-  """A data URI."""
-  image = Image.fromarray(pixels)
+def data_uri(image):
   file = io.BytesIO()
   image.save(file, "PNG", optimize=True)
   return "data:image/png;base64," + base64.b64encode(file.getvalue()).decode()
@@ -110,7 +108,7 @@ def embed(sweep):
     name = cell.row.get("picture")
     if not name:
       continue
-    path = placeOf(sweep.folder, name, f"{sweep.path}:{cell.line}")
+    path = place_of(sweep.folder, name, f"{sweep.path}:{cell.line}")
     try:
       with path.open("rb") as file:
         key = cell.values["scene"], hashlib.file_digest(file, "sha256").digest() if path.is_file() else None
@@ -120,15 +118,15 @@ def embed(sweep):
     except (OSError, SyntaxError, ValueError):  # Pillow has all three for damaged files
       notes.append(f"{name}: the picture of cell {cell.number} is not in the folder, or not one.")
   made = []
-  for halvings in range(kHalvings + 1):
+  for halvings in range(HALVINGS + 1):
     made = []
     for pixels, factor, size, cells in found.values():
-      small, more = pool(pixels, max(kEdge >> halvings, 1)) if max(pixels.shape[:2]) > kEdge >> halvings else (pixels, 1)
-      made.append(Picture(cells, encode(small), size, small.shape[1::-1], factor * more))
-    if sum(len(picture.uri) for picture in made) <= kBudget:
+      small, more = pool(pixels, max(EDGE >> halvings, 1)) if max(pixels.shape[:2]) > EDGE >> halvings else (pixels, 1)
+      made.append(Picture(cells, data_uri(Image.fromarray(small)), size, small.shape[1::-1], factor * more))
+    if sum(len(picture.uri) for picture in made) <= BUDGET:
       return made, notes
   kept = 0
-  while sum(len(picture.uri) for picture in made[: kept + 1]) <= kBudget:
+  while sum(len(picture.uri) for picture in made[: kept + 1]) <= BUDGET:
     kept += 1
   notes.append(
     f"{len(made) - kept} of {len(made)} pictures are left out to keep the page small; the folder pictures/ has them."

@@ -1,10 +1,11 @@
-"""HTML of tables and legends."""
+"""HTML of whole pages, tables and legends."""
 
 from html import escape
+from pathlib import Path
 
-import words
+from . import words
 
-kShapes = {  # of the legend, in a box from -6 to 6
+SHAPES = {  # of the legend, in a box from -6 to 6
   "circle": "M-4,0a4,4 0 1,0 8,0a4,4 0 1,0 -8,0",
   "square": "M-3.5,-3.5h7v7h-7z",
   "triangle-up": "M0,-4.5L4.5,3.5H-4.5z",
@@ -17,7 +18,7 @@ kShapes = {  # of the legend, in a box from -6 to 6
 
 def swatch(colour, shape="square"):
   return (
-    f'<svg width="14" height="14" viewBox="-7 -7 14 14" aria-hidden="true"><path d="{kShapes[shape]}"'
+    f'<svg width="14" height="14" viewBox="-7 -7 14 14" aria-hidden="true"><path d="{SHAPES[shape]}"'
     f' fill="{colour}"/></svg>'
   )
 
@@ -49,3 +50,24 @@ def text(value):
 
 def quantity(value, digits=3):
   return (words.significant(value, digits), float(value)) if value is not None else ("\u2013", None)
+
+
+def document(title, policy, body, style=""):
+  """A page with the report's style and `style`; `policy` says what it may load and run."""
+  style = Path(__file__).with_name("page.css").read_text(encoding="utf-8") + style
+  return f"""<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta http-equiv="Content-Security-Policy" content="{policy}">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<title>{escape(title)}</title>
+<link rel="icon" href="data:,">
+<style>
+{style}</style>
+</head>
+<body>
+{body}
+</body>
+</html>
+"""

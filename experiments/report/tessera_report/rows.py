@@ -9,13 +9,11 @@ import tomllib
 
 import jsonschema
 
-import ratios
-from refused import Refused
-import schema
-import visible
+from . import ratios, schema, visible
+from .refused import Refused
 
 # What a cell can be told apart by besides the axes; "x" is the number of its scene.
-kPlaces = ("machine", "scene", "size", "device", "threads")
+PLACES = ("machine", "scene", "size", "device", "threads")
 
 
 @dataclass
@@ -23,7 +21,7 @@ class Cell:
   row: dict
   line: int
   machine: str = ""
-  values: dict = field(default_factory=dict)  # of axes and kPlaces, as text; no entry where the cell has no such axis
+  values: dict = field(default_factory=dict)  # of axes and PLACES, as text; no entry where the cell has no such axis
   samples: ratios.Samples = field(default_factory=dict)  # with those taken again: for ratios
   ratio: ratios.Ratio | None = None  # to its group's reference
 
@@ -66,7 +64,7 @@ class Cell:
     return tuple(value / 1e6 for value in ratios.spread(self.row["time_ns"]["samples"]))
 
   @property
-  def fullKey(self):
+  def full_key(self):
     provenance = self.row["provenance"]
     return tuple(str(provenance.get(key, "")) for key in ("cpu", "os", "device", "driver", "api", "threads"))
 
@@ -82,18 +80,18 @@ class Cell:
     return sum(value for name, value in self.row.get(source, {}).items() if name.endswith("_mismatch") and value)
 
   @property
-  def truthSource(self):
+  def truth_source(self):
     """Where errors count from: [truth] where the sweep has it."""
     return "truth_error" if self.row.get("truth") else "error"
 
   @property
   def exact(self):
     """Whether it was found to be without an error."""
-    return self.truthSource in self.row and not self.mismatches(self.truthSource)
+    return self.truth_source in self.row and not self.mismatches(self.truth_source)
 
   @property
   def wrong(self):
-    return bool(self.mismatches(self.truthSource))
+    return bool(self.mismatches(self.truth_source))
 
 
 @dataclass
@@ -109,15 +107,15 @@ class Group:
     self.reference = next((cell for cell in self.cells if cell.reference and not cell.twin), None)
     self.twin = next((cell for cell in self.cells if cell.twin), None)
     if self.reference and self.reference.timed:
-      if self.twin and self.twin.timed and self.twin.fullKey == self.reference.fullKey:
+      if self.twin and self.twin.timed and self.twin.full_key == self.reference.full_key:
         pairs = ratios.paired(self.twin.samples, self.reference.samples)
-        self.floors = {session: ratios.noiseFloor(values) for session, values in pairs.items()}
+        self.floors = {session: ratios.noise_floor(values) for session, values in pairs.items()}
       for cell in self.cells:
         cell.ratio = self.compare(cell, self.reference)
 
   @property
   def values(self):
-    return {place: self.cells[0].values[place] for place in kPlaces if place in self.cells[0].values}
+    return {place: self.cells[0].values[place] for place in PLACES if place in self.cells[0].values}
 
   @property
   def floor(self):
@@ -130,7 +128,7 @@ class Group:
 
   def compare(self, a: Cell, b: Cell):
     """None where the two may not be compared: no time, no round in common, or another machine."""
-    if not (a.timed and b.timed) or a.fullKey != b.fullKey:
+    if not (a.timed and b.timed) or a.full_key != b.full_key:
       return None
     return ratios.ratio(a.samples, b.samples, self.floors)
 
@@ -184,20 +182,20 @@ def number(name, text):
   return value if value == 0 or 1e-30 <= abs(value) <= 1e30 else None  # neither infinite nor NaN
 
 
-def readLines(path, newest):
+def read_lines(path, newest):
   cells = [Cell(row, line) for line, row in schema.read(path, newest)]
   if not cells:
     raise Refused(f"{path}: no rows; run the sweep first: tessera sweep SWEEP.toml --out {path.parent}")
   return cells
 
 
-kNames = {"type": "array", "items": {"type": "string"}}
-kPlot = {
+NAMES = {"type": "array", "items": {"type": "string"}}
+PLOT = {
   "type": "object",
   "properties": {
-    "curve": kNames,
-    "against": kNames,
-    "heat": {"type": "array", "items": {**kNames, "minItems": 2, "maxItems": 2}},
+    "curve": NAMES,
+    "against": NAMES,
+    "heat": {"type": "array", "items": {**NAMES, "minItems": 2, "maxItems": 2}},
     "x-label": {"type": "string"},
     "error": {"type": "string"},
     "figure": {"type": "string"},
@@ -205,7 +203,7 @@ kPlot = {
 }
 
 
-def readPlot(folder, sweep):
+def read_plot(folder, sweep):
   """[plot], whose axes have to be the rows' own."""
   path = folder / "sweep.toml"
   if not path.exists() and not path.is_symlink():
@@ -228,10 +226,10 @@ def readPlot(folder, sweep):
       "sweep.toml has been changed since the sweep ran; its [plot] is used, its cells are those of the rows."
     )
   plot = file.get("plot", {})
-  for error in jsonschema.Draft202012Validator(kPlot).iter_errors(plot):
+  for error in jsonschema.Draft202012Validator(PLOT).iter_errors(plot):
     where = ".".join(["plot", *(str(part) for part in error.absolute_path if isinstance(part, str))])
     raise Refused(f"{path}: {where}: {schema.wanted(error)} would be right")
-  known = [*sweep.swept, *kPlaces]
+  known = [*sweep.swept, *PLACES]
   asked = [("curve", axis) for axis in plot.get("curve", [])]
   asked += [("against", axis) for axis in plot.get("against", []) if axis != "x"]
   asked += [("heat", axis) for pair in plot.get("heat", []) for axis in pair]
@@ -244,7 +242,7 @@ def readPlot(folder, sweep):
   return plot
 
 
-def samplesOf(row):
+def samples_of(row):
   samples = defaultdict(list)
   times = row.get("time_ns", {})
   for part in (times, times.get("again", {})):
@@ -256,17 +254,17 @@ def samplesOf(row):
   return dict(samples)
 
 
-def nameMachines(cells):
+def name_machines(cells):
   """A machine is a CPU and a system, unless that would make one of two that answer differently to the same device."""
   answers = defaultdict(set)
   for cell in cells:
     if cell.row["provenance"].get("device"):
-      answers[cell.fullKey[:2], cell.row["sweep"]["device"], cell.row["sweep"].get("threads")].add(cell.fullKey)
+      answers[cell.full_key[:2], cell.row["sweep"]["device"], cell.row["sweep"].get("threads")].add(cell.full_key)
   several = {host for (host, _, _), keys in answers.items() if len(keys) > 1}
   keys = {}
   for cell in cells:
-    host = cell.fullKey[:2]
-    keys.setdefault(cell.fullKey if host in several else host, []).append(cell)
+    host = cell.full_key[:2]
+    keys.setdefault(cell.full_key if host in several else host, []).append(cell)
   names = [key[0] or "unknown machine" for key in keys]
   if len(set(names)) < len(names):
     names = [", ".join(part for part in key if part) for key in keys]
@@ -276,7 +274,7 @@ def nameMachines(cells):
       cell.machine = name if names.count(name) == 1 else f"{name} ({index + 1})"
 
 
-def valuesOf(cell, allDevices):
+def values_of(cell, all_devices):
   row, sweep = cell.row, cell.row["sweep"]
   values = {axis: str(value) for axis, value in sweep.get("asked", {}).items()}
   values = {axis: value if value else "own" for axis, value in values.items()}
@@ -284,7 +282,7 @@ def valuesOf(cell, allDevices):
   values["scene"] = sweep["scene"]
   if "size" in row["scene"]:
     values["size"] = " x ".join(str(edge) for edge in row["scene"]["size"])
-  values["device"] = sweep["device"] + (" (software)" if cell.software and allDevices else "")
+  values["device"] = sweep["device"] + (" (software)" if cell.software and all_devices else "")
   threads = row["provenance"].get("threads") or sweep.get("threads")
   if threads:
     values["threads"] = str(threads)
@@ -294,10 +292,10 @@ def valuesOf(cell, allDevices):
   return values
 
 
-def readSweep(folder, newest, allDevices=False, rows="rows.jsonl"):
+def read_sweep(folder, newest, all_devices=False, rows="rows.jsonl"):
   path = folder / rows
   try:
-    cells = readLines(path, newest)
+    cells = read_lines(path, newest)
   except OSError as error:
     raise Refused(f"{path}: {error.strerror}") from None
   first = cells[0]
@@ -315,16 +313,16 @@ def readSweep(folder, newest, allDevices=False, rows="rows.jsonl"):
       )
   seen = {}
   for cell in cells:
-    other = seen.setdefault((cell.fullKey, cell.number), cell)
+    other = seen.setdefault((cell.full_key, cell.number), cell)
     if other is not cell:
       raise Refused(
         f"{path}:{cell.line}: cell {cell.number} of the same machine is in line {other.line}, too; "
         "rows of one machine should be there once"
       )
-  nameMachines(cells)
+  name_machines(cells)
   for cell in cells:
-    cell.values = valuesOf(cell, allDevices)
-    cell.samples = samplesOf(cell.row)
+    cell.values = values_of(cell, all_devices)
+    cell.samples = samples_of(cell.row)
   order = {machine: index for index, machine in enumerate(dict.fromkeys(cell.machine for cell in cells))}
   cells.sort(key=lambda cell: (order[cell.machine], cell.number))
   groups = defaultdict(list)
@@ -353,5 +351,5 @@ def readSweep(folder, newest, allDevices=False, rows="rows.jsonl"):
         sweep.notes.append(line)
   if about.get("quick"):
     sweep.notes.append("These rows are of a --quick sweep, with sizes, rounds and scenes as in [quick].")
-  sweep.plot = readPlot(folder, sweep)
+  sweep.plot = read_plot(folder, sweep)
   return sweep

@@ -8,7 +8,7 @@ import tempfile
 
 import duckdb
 
-from files import beside, NotWritten, writing
+from .files import beside, NotWritten, writing
 
 
 def cause(error):
@@ -21,12 +21,12 @@ def write(sweep, path):
   """Table `rows`: fields as in rows.jsonl, nested ones as structs, and first what the report adds. Throws NotWritten."""
   try:
     with writing(path):
-      writeTable(sweep, path)
+      write_table(sweep, path)
   except duckdb.Error as error:
     raise NotWritten(f"{path}: could not be written: {cause(error)}") from error
 
 
-def writeTable(sweep, path):
+def write_table(sweep, path):
   with beside(path) as new, tempfile.TemporaryDirectory() as folder:
     lines = Path(folder) / "rows.jsonl"
     with writing(lines), lines.open("w", encoding="utf-8") as file:

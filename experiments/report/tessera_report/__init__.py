@@ -1,0 +1,1 @@
+"""Reports of a sweep's rows: a page, figures and an export."""
