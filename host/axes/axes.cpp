@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 #include <tessera/variant.h>
 
+#include "host/axes/routes.h"
+
 namespace tessera {
 namespace {
 
@@ -31,14 +33,7 @@ const Stages kSetupToRaster{"setup", "bin-count", "bin-insert", "raster-tiles", 
 
 std::vector<Axis> vertexAxes() {
   return {
-      {"route",
-       "how the kernels reach the machine",
-       "Slang user guide, chapter on targets",
-       {},
-       {{"cpp", "Slang to C++", "", kImplementation, kNeedsCpu},
-        {"spirv", "Slang to SPIR-V", "", kImplementation, kNeedsVulkan},
-        {"glsl", "Slang to GLSL to glslang to SPIR-V", "", kImplementation, kNeedsVulkan}},
-       "cpp on the CPU device, spirv on a Vulkan device"},
+      routeAxis(),
       {"plan",
        "whether the planner leaves out what a scene does not need",
        "",

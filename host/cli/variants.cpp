@@ -8,7 +8,9 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "host/axes/routes.h"
 #include "host/cli/commands.h"
+#include "host/devices/open.h"
 #include "host/support/terminal.h"
 
 namespace tessera::cli {
@@ -22,13 +24,14 @@ std::string rangeText(const Axis& axis) { return fmt::format("{} to {}", axis.le
 
 /// The devices that can run it.
 std::string devicesText(const AxisValue& value) {
-  if (value.has(kNeedsCpu)) return "CPU";
-  std::vector<std::string> needs;
+  std::vector<std::string> kinds, needs;
+  for (const DeviceKind& kind : deviceKinds())
+    if (fulfils(kind.routes, value)) kinds.push_back(kind.title);
   if (value.has(kNeedsInt64)) needs.emplace_back("64-bit integers");
   if (value.has(kNeedsFloat64)) needs.emplace_back("64-bit floats");
   if (value.has(kNeedsAtomics64)) needs.emplace_back("64-bit atomics");
   const std::string with = needs.empty() ? "" : fmt::format(" with {}", fmt::join(needs, " and "));
-  return (value.has(kNeedsVulkan) ? "Vulkan" : "CPU, Vulkan") + with;
+  return fmt::format("{}{}", fmt::join(kinds, ", "), with);
 }
 
 /// The rules about it: what it goes with.

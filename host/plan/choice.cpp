@@ -6,12 +6,13 @@
 
 #include <algorithm>
 
+#include "host/axes/routes.h"
+
 namespace tessera {
 
 std::optional<std::string> missingFeature(const AxisValue& value, const DeviceInfo& device) {
-  if (value.has(kNeedsCpu) && device.api != "cpu")
-    return value.limits.empty() ? "it is for the CPU device" : "it is for the CPU device: " + value.limits;
-  if (value.has(kNeedsVulkan) && device.api != "vulkan") return "it is for Vulkan devices";
+  if (!fulfils(device.routes, value))
+    return fmt::format("it is for {}{}", devicesFor(value), value.limits.empty() ? "" : ": " + value.limits);
   if (value.has(kNeedsFloat64) && !device.float64) return device.name + " has no 64-bit floats (shaderFloat64)";
   if (value.has(kNeedsInt64) && !device.int64) return device.name + " has no 64-bit integers (shaderInt64)";
   if (value.has(kNeedsAtomics64) && !device.atomicMin64)

@@ -27,7 +27,7 @@ class Planner {
 
   Plan run() {
     choice_.take("plan", {"planned"});
-    choice_.take("route", {"cpp", "spirv"});
+    choice_.take("route", device_.routes);
     geometry();
     bins();
     raster();
@@ -207,6 +207,7 @@ Plan makePlan(const Scene& scene, const Variant& variant, const DeviceInfo& devi
   if (scene.width == 0 || scene.height == 0 || scene.width > kMaxExtent || scene.height > kMaxExtent)
     failUsage(
         fmt::format("size {}x{}: width and height go from 1 to {} pixels", scene.width, scene.height, kMaxExtent));
+  if (device.routes.empty()) failUsage(fmt::format("{}: it names no route for kernels; one would do", device.name));
   return Planner(scene, variant, device).run();
 }
 

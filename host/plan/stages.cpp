@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "host/axes/routes.h"
 #include "host/kernels/user-kernel.h"
 
 namespace tessera {
@@ -53,12 +54,11 @@ std::vector<std::string> stagesOf(const Plan& plan) {
 KernelRequest kernelRequest(std::string_view name, const Plan& plan) {
   const auto stage = std::ranges::find(stages(), name, &Stage::name);
   if (stage == stages().end()) throw std::logic_error("no stage " + std::string(name));
-  const std::string route = plan.resolved.get("route");
   KernelRequest request;
   request.stage = stage->name;
   request.source = stage->source;
   request.entry = stage->entry;
-  request.route = route == "cpp" ? Route::kCpp : route == "glsl" ? Route::kGlsl : Route::kSpirv;
+  request.route = routeNamed(plan.resolved.get("route")).route;
   request.modules = variantModules(name, plan.resolved);
   for (const Axis& axis : axes())
     if (std::ranges::find(axis.stages, name) != axis.stages.end())

@@ -10,6 +10,7 @@
 #include <set>
 #include <sstream>
 
+#include "host/axes/routes.h"
 #include "host/devices/vulkan/spirv-module.h"
 #include "host/kernels/spirv-bounds.h"
 #include "host/kernels/spirv.h"
@@ -47,11 +48,10 @@ Scene simpleScene(bool objectSpace) {
 
 std::vector<KernelRequest> kernelsOf(const Stage& stage, Route route, std::size_t strength) {
   DeviceInfo device;
-  device.api = route == Route::kCpp ? "cpu" : "vulkan";
+  device.routes = {routeInfo(route).name};
   Scene scene = simpleScene(stage.name != "project");
   if (stage.name == "attribute") scene.attribute.assign(scene.vertexCount(), 1.0f);
   Variant base = settingFor(stage.name);
-  if (route == Route::kGlsl) base.set("route", "glsl");
   std::vector<AxisValues> axesRead;
   for (const Axis& a : axes())
     if (std::ranges::count(a.stages, stage.name) && !base.has(a.name)) {

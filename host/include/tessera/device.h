@@ -14,10 +14,11 @@
 namespace tessera {
 
 struct DeviceInfo {
-  std::string api;                       ///< "cpu" or "vulkan"
+  std::string api;                       ///< name of its kind, see device-kind.h: "cpu", "vulkan", ...
+  std::vector<std::string> routes;       ///< values of the axis `route` that its kernels take; the first is the default
   std::string name;                      ///< e.g. "AMD EPYC" or "llvmpipe (LLVM 15.0.6, 256 bits)"
   std::string driver;                    ///< driver name and version; compiler and target on the CPU
-  unsigned threads = 0;                  ///< CPU device: threads in use; 0 on Vulkan
+  unsigned threads = 0;                  ///< host threads that run its kernels; 0 where the host runs none
   bool correctnessOnly = false;          ///< a software Vulkan driver: its times say nothing about a GPU
   bool int64 = true;                     ///< 64-bit integers in kernels
   bool float64 = true;                   ///< 64-bit floats in kernels

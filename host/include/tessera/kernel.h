@@ -10,7 +10,8 @@
 
 namespace tessera {
 
-/// How Slang reaches the machine. kCpp runs on the CPU device, the other two on a Vulkan device.
+/// How Slang reaches the machine: the values of the axis `route`, "cpp", "spirv" and "glsl". A device says which it
+/// takes.
 enum class Route { kCpp, kSpirv, kGlsl };
 
 /// Where the parameters of a kernel go, read from slangc's reflection JSON or from the SPIR-V itself; no layout is

@@ -3,6 +3,7 @@
 
 #include <tessera/counters.h>
 #include <tessera/cpu-device.h>
+#include <tessera/device-kind.h>
 #include <tessera/device.h>
 #include <tessera/error.h>
 #include <tessera/framebuffer.h>
