@@ -36,7 +36,7 @@ std::vector<std::pair<std::string, std::string>> provenance(const DeviceInfo& de
   return {{"tessera_build", TESSERA_BUILD_TYPE},
           {"git", TESSERA_GIT},
           {"compiler", TESSERA_COMPILER},
-          {device.api == "cpu" ? "cpu" : "device", device.name},
+          {device.threads != 0 ? "cpu" : "device", device.name},
           {"threads", std::to_string(device.threads)},
           {"slang", kernels.slangc().version},
           {"kernel_compiler", kernels.cxx()},

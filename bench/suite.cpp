@@ -1,14 +1,13 @@
 #include "bench/suite.h"
 
 #include <fmt/format.h>
-#include <tessera/cpu-device.h>
 #include <tessera/error.h>
-#include <tessera/vulkan-device.h>
 
 #include <algorithm>
 #include <string_view>
 
 #include "bench/scenes.h"
+#include "host/devices/open.h"
 #include "host/support/terminal.h"
 
 namespace tessera::bench {
@@ -16,13 +15,10 @@ namespace {
 
 constexpr std::string_view kDevice = "--device=";
 
-std::unique_ptr<Device> open(std::string_view name) {
-  if (name == "cpu") return makeCpuDevice();
-  VulkanOptions options;
-  if (name.starts_with("vulkan:")) options.select = name.substr(7);
-  if (name != "vulkan" && options.select.empty())
-    failUsage(fmt::format("{}{}: no such device; cpu, vulkan, vulkan:N or vulkan:NAME would be", kDevice, name));
-  return makeVulkanDevice(options);
+std::unique_ptr<Device> open(const std::string& name) {
+  if (findKind(name) == nullptr)
+    failUsage(fmt::format("{}{}: no such device; {} would be", kDevice, name, deviceForms()));
+  return openDevice(name);
 }
 
 }  // namespace
@@ -33,7 +29,7 @@ benchmark::Counter rate(std::size_t count) {
 
 int runSuite(const char* program, int argc, char** argv, const std::function<void(Machine&)>& add) try {
   benchmark::Initialize(&argc, argv);
-  std::string_view device = "cpu";
+  std::string device = defaultDevice();
   for (int i = 1; i < argc; ++i) {
     if (!std::string_view(argv[i]).starts_with(kDevice)) continue;
     device = std::string_view(argv[i]).substr(kDevice.size());

@@ -17,9 +17,9 @@ struct Machine {
   Rasterizer rasterizer{*device, kernels};
 };
 
-/// main() of such a program: takes Google Benchmark's options and --device=cpu|vulkan|vulkan:NAME (the CPU if not
-/// given), writes build, commit, device and compilers into the context, runs what `add` registers. Returns the exit
-/// status.
+/// main() of such a program: takes Google Benchmark's options and --device=NAME as openDevice() takes it (the
+/// CPU if not given), writes build, commit, device and compilers into the context, runs what `add` registers. Returns
+/// the exit status.
 int runSuite(const char* program, int argc, char** argv, const std::function<void(Machine&)>& add);
 
 /// `count` of a thing that each iteration works on, as a rate over the time that was set by hand: triangles/s,

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "datasets/random.h"
+#include "host/devices/open.h"
 
 namespace tessera::harness {
 namespace {
@@ -83,7 +84,7 @@ std::vector<Cell> cells(const Sweep& sweep) {
   for (const std::string& device : sweep.devices)
     for (std::size_t scene = 0; scene < sweep.scenes.size(); ++scene)
       for (const Size size : sweep.sizes) {
-        if (device != "cpu") {
+        if (!takesThreads(device)) {
           addGroup(device, scene, size, 0);
           continue;
         }

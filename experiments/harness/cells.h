@@ -18,7 +18,7 @@ struct Cell {
   std::size_t scene = 0;  ///< of Sweep::scenes
   Size size;
   std::string device;
-  unsigned threads = 0;    ///< 0 where the device is not the CPU
+  unsigned threads = 0;    ///< 0 where the device takes no number of threads
   Variant asked;           ///< set and swept axes
   KernelFiles kernels;     ///< user's kernels; a stage's own is not in it
   Labels labels;           ///< `asked` and kernels, for rows

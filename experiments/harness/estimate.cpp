@@ -101,7 +101,7 @@ class Meter {
 
   GroupTimes measure(const Cell& cell) {
     const Scene& scene = load(cell);
-    const auto device = openDevice(cell.device, cell.threads);
+    const auto device = openDevice(cell.device, {.threads = cell.threads});
     KernelCache kernels({.files = cell.kernels});
     compilingS_ += secondsOf([&] { compileKernels(kernels, {makePlan(scene, cell.asked, device->info())}); });
     compiled_ += kernels.statistics().compiled;

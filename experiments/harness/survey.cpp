@@ -25,7 +25,7 @@ struct Opened {
 
 Opened open(const std::string& name, unsigned threads) {
   try {
-    return {openDevice(name, threads), ""};
+    return {openDevice(name, {.threads = threads}), ""};
   } catch (const Error& error) {
     return {nullptr, error.what()};
   }

@@ -15,6 +15,7 @@
 #include "datasets/toml-table.h"
 #include "experiments/harness/axis-values.h"
 #include "experiments/harness/report-keys.h"
+#include "host/devices/open.h"
 #include "host/kernels/user-kernel.h"
 #include "host/plan/stages.h"
 #include "host/support/file-faults.h"
@@ -173,19 +174,18 @@ std::vector<Size> readSizes(const TomlTable& table) {
 
 /// It becomes a part of a folder's name.
 bool isDeviceName(std::string_view name) {
-  const bool known = name == "cpu" || name == "vulkan" || (name.starts_with("vulkan:") && name.size() > 7);
-  return known && name.find_first_of("/\r\n") == name.npos;
+  return findKind(name) != nullptr && name.find_first_of("/\r\n") == name.npos;
 }
 
 std::vector<std::string> readDevices(const TomlTable& top) {
-  const toml::array* const list = top.list("devices", "a list such as [\"cpu\", \"vulkan\"]");
-  if (!list) return {"cpu"};
+  const toml::array* const list =
+      top.list("devices", fmt::format("a list such as [\"{}\"]", fmt::join(kindNames(), "\", \"")));
+  if (!list) return {defaultDevice()};
   std::vector<std::string> devices;
   for (const toml::node& node : *list) {
     const std::string name = textOf(top, "devices", node, "a device's name in quotes");
     if (!isDeviceName(name))
-      top.refuse("devices", node,
-                 fmt::format("no device '{}'; cpu, vulkan, vulkan:N or vulkan:NAME would be right", name));
+      top.refuse("devices", node, fmt::format("no device '{}'; {} would be right", name, deviceForms()));
     addOnce(top, "devices", node, devices, name);
   }
   return devices;
@@ -359,7 +359,7 @@ void change(Sweep& sweep, const Changes& changes) {
   sweep.devices.clear();
   for (const std::string& name : changes.devices) {
     if (!isDeviceName(name))
-      failUsage(fmt::format("--devices {}: no such device; cpu, vulkan, vulkan:N or vulkan:NAME would be right", name));
+      failUsage(fmt::format("--devices {}: no such device; {} would be right", name, deviceForms()));
     if (std::ranges::find(sweep.devices, name) != sweep.devices.end())
       failUsage(fmt::format("--devices {}: is there twice; once would be right", name));
     sweep.devices.push_back(name);

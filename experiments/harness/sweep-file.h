@@ -59,8 +59,8 @@ struct Sweep {
   std::uint64_t seed = 1;  ///< of the order in which cells take their turns
   std::vector<SweepScene> scenes;
   std::vector<Size> sizes;
-  std::vector<std::string> devices{"cpu"};
-  std::vector<unsigned> threads{0};  ///< of the CPU device; 0: all cores. Other devices ignore it
+  std::vector<std::string> devices;  ///< names as --device takes them
+  std::vector<unsigned> threads{0};  ///< of devices that take a number (DeviceKind::takesThreads); 0: all cores
   Variant set;                       ///< axes that are the same in every cell
   std::vector<SweptAxis> axes;
   std::vector<SweptKernel> kernels;

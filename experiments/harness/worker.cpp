@@ -18,6 +18,7 @@
 #include "experiments/harness/fields.h"
 #include "experiments/harness/request.h"
 #include "experiments/harness/watchdog.h"
+#include "host/axes/routes.h"
 #include "host/axes/settings.h"
 #include "host/devices/open.h"
 #include "host/measure/measure.h"
@@ -115,7 +116,7 @@ class Worker {
 
   Device& deviceOf(const WorkerCell& cell) {
     auto& device = devices_[cell.threads];
-    if (!device) device = openDevice(job_.device, cell.threads);
+    if (!device) device = openDevice(job_.device, {.threads = cell.threads});
     return *device;
   }
 
@@ -140,11 +141,12 @@ class Worker {
   }
 
   double limit(const Device& device, bool first) const {
-    return first && device.info().api != "cpu" ? kFirstFrames * job_.timeLimitS : job_.timeLimitS;
+    const bool compiles = routeNamed(device.info().routes.front()).spirv;  // its driver does, in the first frame
+    return first && compiles ? kFirstFrames * job_.timeLimitS : job_.timeLimitS;
   }
 
   void check(const WorkerCell& cell) {
-    const auto device = openDevice(job_.device, cell.threads);
+    const auto device = openDevice(job_.device, {.threads = cell.threads});
     KernelCache& kernels = kernelsOf(cell);
     Run run = beginOf(cell, *device, kernels);
     double seconds = 0;

@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 #include <tessera/variant.h>
 
+#include "host/axes/routes.h"
+
 namespace tessera {
 namespace {
 
@@ -37,14 +39,7 @@ const Stages kSetupToRaster{"setup", "bin-count", "bin-insert", "raster-tiles", 
 
 std::vector<Axis> vertexAxes() {
   return {
-      {"route",
-       "how the kernels reach the machine",
-       "Slang user guide, chapter on targets",
-       {},
-       {{"cpp", "Slang to C++", "", kImplementation, {.cpu = true}},
-        {"spirv", "Slang to SPIR-V", "", kImplementation, {.vulkan = true}},
-        {"glsl", "Slang to GLSL to glslang to SPIR-V", "", kImplementation, {.vulkan = true}}},
-       "cpp on the CPU device, spirv on a Vulkan device"},
+      routeAxis(),
       {"plan",
        "whether the planner leaves out what a scene does not need",
        "",
@@ -255,7 +250,7 @@ std::vector<Axis> rasterAxes() {
          "a spin lock a pixel around plain reads and writes",
          type("Commit", "commit.lock", "CommitLock"),
          kImplementation,
-         {.cpu = true},
+         {.oneThreadGroups = true},
          "",
          "a lane that waits for one of its own subgroup would wait for ever on a GPU",
          CommitTraits{}},

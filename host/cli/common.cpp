@@ -2,10 +2,8 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <tessera/cpu-device.h>
 #include <tessera/error.h>
 #include <tessera/input.h>
-#include <tessera/vulkan-device.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -72,7 +70,6 @@ ValueRange parseRange(const std::string& text) {
   return range;
 }
 
-/// Which there are, and which of them may have been meant: a part of an adapter's name without "vulkan:", too.
 }  // namespace
 
 void addInput(CLI::App& app, Options& options) {
@@ -150,8 +147,8 @@ void addQuiet(CLI::App& app, bool& quiet) {
 }
 
 void addDevice(CLI::App& app, Options& options, bool many) {
-  const auto* const text = "cpu, vulkan, vulkan:N (its number in 'tessera devices') or vulkan:NAME (part of its name)";
-  auto* const option = app.add_option("--device", options.devices, text)->type_name("DEVICE")->allow_extra_args(false);
+  auto* const option =
+      app.add_option("--device", options.devices, deviceForms(true))->type_name("DEVICE")->allow_extra_args(false);
   if (!many) option->expected(1);
 }
 
@@ -216,13 +213,20 @@ Scene sceneOf(const Options& options) {
   return scene;
 }
 
-std::string deviceName(const Options& options) { return options.devices.empty() ? "cpu" : options.devices.front(); }
+std::string deviceName(const Options& options) {
+  return options.devices.empty() ? defaultDevice() : options.devices.front();
+}
 
 std::unique_ptr<Device> deviceOf(const Options& options) {
   const std::string name = deviceName(options);
-  if (options.threads != 0 && name.starts_with("vulkan"))
-    failUsage("--threads: only the CPU device takes it; --device cpu would");
-  return openDevice(name, options.threads);
+  if (options.threads != 0 && !kindOf(name).takesThreads) {
+    std::vector<std::string> titles, names;
+    for (const DeviceKind& kind : deviceKinds())
+      if (kind.takesThreads) titles.push_back(kind.title), names.push_back(kind.name);
+    failUsage(fmt::format("--threads: only the {} device takes it; --device {} would", fmt::join(titles, " or "),
+                          fmt::join(names, " or ")));
+  }
+  return openDevice(name, {.threads = options.threads});
 }
 
 std::vector<std::string> partsOf(const std::string& typed, const std::string& option, const std::string& right) {

@@ -21,9 +21,9 @@ struct Options {
   std::string size;                   ///< "WxH" or "W"; empty: the scene's
   std::vector<std::string> settings;  ///< "axis=value", or more of them with commas or blanks between
   std::vector<std::string> kernels;   ///< "STAGE=FILE"
-  std::vector<std::string> devices;   ///< "cpu", "vulkan", "vulkan:N", "vulkan:NAME"
+  std::vector<std::string> devices;   ///< names as openDevice() takes them
   std::string attribute, range;       ///< its name; "A,B"
-  unsigned threads = 0;               ///< of the CPU device; 0: all cores
+  unsigned threads = 0;               ///< of devices that take a number; 0: all cores
   bool quiet = false;                 ///< no progress and no summary
 };
 
@@ -50,7 +50,7 @@ AttributeRequest attributeOf(const Options& options);
 /// Loads the input and its attribute, and prints its notes; a size that was given replaces the scene's, and its camera
 /// follows.
 Scene sceneOf(const Options& options);
-/// The name of the one device of a command that takes one: the CPU unless another was named.
+/// The name of the one device of a command that takes one: the default device unless another was named.
 std::string deviceName(const Options& options);
 /// The device itself.
 std::unique_ptr<Device> deviceOf(const Options& options);

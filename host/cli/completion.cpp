@@ -1,7 +1,6 @@
 #include "host/cli/completion.h"
 
 #include <tessera/variant.h>
-#include <tessera/vulkan-device.h>
 
 #include <algorithm>
 #include <optional>
@@ -9,6 +8,7 @@
 #include "datasets/generators.h"
 #include "datasets/installed-mesh.h"
 #include "host/cli/help.h"
+#include "host/devices/open.h"
 #include "host/kernels/emit.h"
 #include "host/plan/stages.h"
 
@@ -37,9 +37,11 @@ Candidates axisSettings(const std::string& word) {
 
 Candidates devices(const std::string& word) {
   const std::string before = upTo(word, ",");
-  Candidates all{{before + "cpu", "every core"}, {before + "vulkan", "the first of Vulkan's"}};
-  for (const VulkanAdapter& adapter : listVulkanAdapters().adapters)
-    if (adapter.whyNot.empty()) all.push_back({before + "vulkan:" + std::to_string(adapter.index), adapter.name});
+  Candidates all;
+  for (const DeviceKind& kind : deviceKinds()) all.push_back({before + kind.name, kind.meaning});
+  for (const DeviceKind& kind : deviceKinds())
+    for (const FoundDevice& device : kind.find().devices)
+      if (device.whyNot.empty() && !device.select.empty()) all.push_back({before + nameOf(kind, device), device.name});
   return all;
 }
 

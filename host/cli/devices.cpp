@@ -1,12 +1,13 @@
 // tessera devices: what can run here, what it can do, and whether its arithmetic gives the contract's bits.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <tessera/kernel-cache.h>
-#include <tessera/vulkan-device.h>
 
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "host/axes/routes.h"
 #include "host/cli/commands.h"
 #include "host/cli/common.h"
 #include "host/devices/open.h"
@@ -48,17 +49,20 @@ std::string limitText(std::uint32_t limit) { return limit == ~0u ? "any" : group
 Json limitJson(std::uint64_t limit, std::uint64_t none) { return limit == none ? Json() : Json(limit); }
 
 void addDeviceRow(Rows& rows, Json& json, const std::string& name, KernelCache* kernels, std::string& notes) {
-  const auto device = openDevice(name, 0);
+  const auto device = openDevice(name);
   const DeviceInfo& info = device->info();
-  const bool cpu = info.api == "cpu";
-  const std::string first = probeCell(*device, kernels, cpu ? Route::kCpp : Route::kSpirv, notes, name);
-  const std::string second = cpu ? "" : probeCell(*device, kernels, Route::kGlsl, notes, name);
-  const std::string probe = cpu ? first : fmt::format("spirv {}, glsl {}", first, second);
+  Json probes;
+  std::vector<std::string> cells;
+  for (const std::string& route : info.routes) {
+    const std::string verdict = probeCell(*device, kernels, routeNamed(route).route, notes, name);
+    probes[route] = verdict;
+    cells.push_back(info.routes.size() == 1 ? verdict : route + " " + verdict);
+  }
   json.push_back({{"device", name},
                   {"name", info.name},
                   {"driver", info.driver},
                   {"software", info.correctnessOnly},
-                  {"threads", cpu ? Json(info.threads) : Json()},
+                  {"threads", info.threads != 0 ? Json(info.threads) : Json()},
                   {"int64", info.int64},
                   {"float64", info.float64},
                   {"atomic64", info.atomicMin64},
@@ -67,10 +71,10 @@ void addDeviceRow(Rows& rows, Json& json, const std::string& name, KernelCache* 
                   {"loop", limitJson(info.maxLoopIterations, ~0u)},
                   {"groups", limitJson(info.maxGroupsPerDimension, ~0u)},
                   {"clock", info.timeClock},
-                  {"probe", cpu ? Json{{"cpp", first}} : Json{{"spirv", first}, {"glsl", second}}}});
+                  {"probe", probes}});
   rows.push_back({name, info.name, info.driver, yesNo(info.int64), yesNo(info.atomicMin64),
                   byteSize(info.maxBufferBytes), byteSize(info.maxGroupBytes), limitText(info.maxLoopIterations),
-                  limitText(info.maxGroupsPerDimension), info.timeClock, probe});
+                  limitText(info.maxGroupsPerDimension), info.timeClock, fmt::format("{}", fmt::join(cells, ", "))});
   if (info.correctnessOnly) notes += fmt::format("{}: a software driver; its times say nothing about a GPU\n", name);
 }
 
@@ -104,19 +108,23 @@ ExitCode runDevices(const DevicesOptions& options) {
       addDeviceRow(rows, json["devices"], names[i], kernels.get(), notes);
     }
   }
-  const VulkanAdapters vulkan = listVulkanAdapters();
-  for (const auto& adapter : vulkan.adapters)
-    if (!adapter.whyNot.empty()) {
-      json["unusable"].push_back({{"device", fmt::format("vulkan:{}", adapter.index)},
-                                  {"name", adapter.name},
-                                  {"driver", adapter.driver},
-                                  {"why", adapter.whyNot}});
-      notes += fmt::format("vulkan:{} {} ({}): cannot be used: {}\n", adapter.index, adapter.name, adapter.driver,
-                           adapter.whyNot);
+  Json ofDrivers = Json::array();
+  for (const DeviceKind& kind : deviceKinds()) {
+    const FoundDevices found = kind.find();
+    for (const FoundDevice& device : found.devices)
+      if (!device.whyNot.empty()) {
+        const std::string name = nameOf(kind, device);
+        json["unusable"].push_back(
+            {{"device", name}, {"name", device.name}, {"driver", device.driver}, {"why", device.whyNot}});
+        notes += fmt::format("{} {} ({}): cannot be used: {}\n", name, device.name, device.driver, device.whyNot);
+      }
+    for (const auto& note : found.notes) {
+      ofDrivers.push_back(note);
+      notes += fmt::format("{}: {}\n", kind.name, note);
     }
-  for (const auto& note : vulkan.notes) notes += fmt::format("vulkan: {}\n", note);
+  }
   if (options.json) {
-    json["notes"] = vulkan.notes;
+    json["notes"] = ofDrivers;
     say(stdout, "{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
     return ExitCode::kDone;
   }

@@ -16,6 +16,7 @@
 #include "experiments/harness/sweep-file.h"
 #include "host/cli/commands.h"
 #include "host/cli/common.h"
+#include "host/devices/open.h"
 #include "host/support/table.h"
 #include "host/support/terminal.h"
 
@@ -67,7 +68,7 @@ std::string jobsTable(const Sweep& sweep, const std::vector<Cell>& cells, const 
     std::size_t refused = 0;
     for (const std::size_t number : job.cells) {
       const unsigned count = cells[number].threads;
-      threads.insert(job.device != "cpu" ? "-" : count == 0 ? "all" : std::to_string(count));
+      threads.insert(!takesThreads(job.device) ? "-" : count == 0 ? "all" : std::to_string(count));
       refused += survey.cells[number].refused.has_value();
     }
     std::vector<std::string> sizes;

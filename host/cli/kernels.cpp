@@ -117,7 +117,7 @@ ExitCode runKernels(const KernelsOptions& options) {
     failUsage("kernels --prebuild: takes neither INPUT nor --set; --emit does");
   std::vector<Plan> plans;
   for (const auto& name : options.devices.empty() ? presentDevices() : options.devices) {
-    const auto device = openDevice(name, 0);
+    const auto device = openDevice(name);
     for (auto& plan : defaultPlans(device->info())) plans.push_back(std::move(plan));
   }
   KernelCache kernels;

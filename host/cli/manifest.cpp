@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <tessera/counters.h>
-#include <tessera/cpu-device.h>
 #include <tessera/error.h>
 #include <tessera/rasterizer.h>
 
@@ -13,6 +12,7 @@
 
 #include "host/build-info.h"
 #include "host/cli/recorder.h"
+#include "host/devices/open.h"
 #include "host/plan/buffers.h"
 #include "host/plan/stages.h"
 
@@ -137,7 +137,7 @@ Json stageOf(const WrittenStage& written, const Plan& plan, const EmitTarget& ta
 /// The same choices as the plan's on the device that it is recorded on.
 Variant recordedVariant(const Scene& scene, const Variant& asked, const Plan& plan, const DeviceInfo& device) {
   Variant variant = asked;
-  variant.set("route", "cpp");
+  variant.set("route", device.routes.front());
   const Plan here = makePlan(scene, variant, device);
   for (const auto& [axis, value] : plan.resolved.values())
     if (axis != "route" && here.resolved.get(axis) != value) variant.set(axis, value);
@@ -177,10 +177,10 @@ Manifest manifestOf(const Scene& scene, const Variant& asked, const Plan& plan, 
   json["counters"] = Json::array();  // of 64 bits, the low word first
   for (std::size_t i = 0; i < kernelCounterCount(); ++i) json["counters"].push_back(counterDocs()[i].name);
   try {
-    const auto cpu = makeCpuDevice();
+    const auto device = openDevice(defaultDevice());
     DeviceInfo as = target.device;
-    as.api = "cpu";
-    Recorder recorder(*cpu, as);
+    as.routes = device->info().routes;
+    Recorder recorder(*device, as);
     KernelCache kernels;
     Rasterizer(recorder, kernels).render(scene, recordedVariant(scene, asked, plan, as));
     json["buffers"] = Json::array();

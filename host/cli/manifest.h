@@ -27,7 +27,7 @@ struct Manifest {
   std::string complaint;  ///< why it has no commands: the frame could not be run here; else ""
 };
 
-/// `plan` is that of the stages, made of `asked`. The frame runs once on the CPU device, for its commands.
+/// `plan` is that of the stages, made of `asked`. The frame runs once on the default device, for its commands.
 Manifest manifestOf(const Scene& scene, const Variant& asked, const Plan& plan, const EmitTarget& target,
                     const std::vector<WrittenStage>& stages);
 

@@ -14,7 +14,7 @@ namespace tessera::cli {
 
 /// One device by one route.
 struct Attempt {
-  std::string device, route;  ///< as --device names it; cpp, spirv or glsl
+  std::string device, route;  ///< as --device names it; a value of the axis `route`
   Variant variant;
 
   std::string name() const { return device + " " + route; }

@@ -1,7 +1,6 @@
 // tessera parity: every device and route here against the oracle, bit for bit.
 #include <fmt/format.h>
 #include <tessera/input.h>
-#include <tessera/vulkan-device.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -38,8 +37,8 @@ std::vector<Attempt> listAttempts(const ParityOptions& options) {
   const Variant variant = variantOf(options);
   std::vector<Attempt> attempts;
   for (const auto& device : options.devices.empty() ? presentDevices() : options.devices)
-    for (const std::string route : {"cpp", "spirv", "glsl"}) {
-      if ((route == "cpp") != (device == "cpu") || variant.get("route", route) != route) continue;
+    for (const std::string& route : kindOf(device).routes) {
+      if (variant.get("route", route) != route) continue;
       attempts.push_back({device, route, variant});
       attempts.back().variant.set("route", route);
     }
@@ -61,10 +60,13 @@ class Parity {
   explicit Parity(const ParityOptions& options)
       : options_(options), attempts_(listAttempts(options)), kernels_({.files = kernelFilesOf(options)}) {
     for (const auto& attempt : attempts_)
-      if (auto& device = devices_[attempt.device]; !device) device = openDevice(attempt.device, options.threads);
+      if (auto& device = devices_[attempt.device]; !device)
+        device = openDevice(attempt.device, {.threads = options.threads});
     if (options.devices.empty()) {
-      for (const auto& note : listVulkanAdapters().notes) say(stderr, "vulkan: {}\n", note);
-      if (devices_.size() == 1 && devices_.contains("cpu")) say(stderr, "the CPU alone is compared\n");
+      for (const DeviceKind& kind : deviceKinds())
+        for (const auto& note : kind.find().notes) say(stderr, "{}: {}\n", kind.name, note);
+      if (devices_.size() == 1 && devices_.contains(defaultDevice()))
+        say(stderr, "the {} alone is compared\n", kindOf(defaultDevice()).title);
     }
     scene_ = sceneOf(options);
   }

@@ -1,10 +1,14 @@
 // tessera sweep: every cell of a sweep file, checked and timed, into a results folder.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <memory>
 
 #include "experiments/harness/runner.h"
 #include "experiments/harness/worker.h"
 #include "host/cli/commands.h"
 #include "host/cli/common.h"
+#include "host/devices/open.h"
 #include "host/support/progress.h"
 
 namespace tessera::cli {
@@ -14,9 +18,11 @@ void addChanges(CLI::App& app, harness::Changes& changes) {
   app.add_option_function<std::string>(
          "--devices",
          [&changes](const std::string& typed) {
-           if (!typed.empty()) changes.devices = partsOf(typed, "--devices", "cpu,vulkan");  // else it is refused later
+           if (!typed.empty())
+             changes.devices = partsOf(typed, "--devices",
+                                       fmt::format("{}", fmt::join(kindNames(), ",")));  // else it is refused later
          },
-         "cpu, vulkan, vulkan:N or vulkan:NAME, with commas between, in place of the file's")
+         deviceForms() + ", with commas between, in place of the file's")
       ->type_name("DEVICE,...");
 }
 

@@ -8,7 +8,9 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "host/axes/routes.h"
 #include "host/cli/commands.h"
+#include "host/devices/open.h"
 #include "host/support/terminal.h"
 
 namespace tessera::cli {
@@ -22,13 +24,14 @@ std::string rangeText(const Axis& axis) { return fmt::format("{} to {}", axis.le
 
 /// The devices that can run it.
 std::string devicesText(const AxisValue& value) {
-  if (value.needs.cpu) return "CPU";
-  std::vector<std::string> needs;
+  std::vector<std::string> kinds, needs;
+  for (const DeviceKind& kind : deviceKinds())
+    if (fulfils(kind.routes, value)) kinds.push_back(kind.title);
   if (value.needs.int64) needs.emplace_back("64-bit integers");
   if (value.needs.float64) needs.emplace_back("64-bit floats");
   if (value.needs.atomicMin64) needs.emplace_back("64-bit atomics");
   const std::string with = needs.empty() ? "" : fmt::format(" with {}", fmt::join(needs, " and "));
-  return (value.needs.vulkan ? "Vulkan" : "CPU, Vulkan") + with;
+  return fmt::format("{}{}", fmt::join(kinds, ", "), with);
 }
 
 /// The rules about it: what it goes with.

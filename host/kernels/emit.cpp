@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "host/axes/routes.h"
 #include "host/kernels/slang-compiler.h"
 #include "host/kernels/slang-sources.h"
 #include "host/support/files.h"
@@ -14,10 +15,12 @@
 namespace tessera {
 namespace {
 
-DeviceInfo machine(const char* name, const char* api = "vulkan") {
+/// A machine whose kernels are made from those of a route, or of another with a binary of the same kind.
+DeviceInfo machine(const char* name, Route route = Route::kSpirv) {
   DeviceInfo device;
-  device.api = api;
   device.name = name;
+  for (const RouteInfo& other : routes())
+    if (other.spirv == routeInfo(route).spirv) device.routes.push_back(other.name);
   return device;
 }
 
@@ -33,11 +36,13 @@ DeviceInfo webgpu() {
 }  // namespace
 
 const std::vector<EmitTarget>& emitTargets() {
-  static const std::vector<EmitTarget> list{
-      {"spirv", "spv", Route::kSpirv, machine("SPIR-V")}, {"glsl", "comp", Route::kGlsl, machine("GLSL")},
-      {"cpp", "cpp", Route::kCpp, machine("C++", "cpu")}, {"wgsl", "wgsl", Route::kSpirv, webgpu()},
-      {"hlsl", "hlsl", Route::kSpirv, machine("HLSL")},   {"metal", "metal", Route::kSpirv, machine("Metal")},
-      {"cuda", "cu", Route::kSpirv, machine("CUDA")}};
+  static const std::vector<EmitTarget> list{{"spirv", "spv", Route::kSpirv, machine("SPIR-V")},
+                                            {"glsl", "comp", Route::kGlsl, machine("GLSL")},
+                                            {"cpp", "cpp", Route::kCpp, machine("C++", Route::kCpp)},
+                                            {"wgsl", "wgsl", Route::kSpirv, webgpu()},
+                                            {"hlsl", "hlsl", Route::kSpirv, machine("HLSL")},
+                                            {"metal", "metal", Route::kSpirv, machine("Metal")},
+                                            {"cuda", "cu", Route::kSpirv, machine("CUDA")}};
   return list;
 }
 

@@ -14,6 +14,7 @@
 #include <system_error>
 #include <thread>
 
+#include "host/axes/routes.h"
 #include "host/kernels/compiler-tools.h"
 #include "host/kernels/reflection.h"
 #include "host/kernels/slang-compiler.h"
@@ -59,7 +60,7 @@ std::string entryText(const KernelInterface& interface, const std::string& binar
 
 std::optional<KernelInterface> readWhole(const fs::path& entry, Route route) try {
   const nlohmann::json stored = nlohmann::json::parse(readText(entry / kInterfaceFile));
-  if (stored.at("binaryHash") != sha256(readText(entry / binaryName(route)))) return {};
+  if (stored.at("binaryHash") != sha256(readText(entry / routeInfo(route).binary))) return {};
   if (stored.at("interfaceHash") != sha256(stored.at("interface").dump())) return {};
   return interfaceFromJson(stored.at("interface"));
 } catch (const nlohmann::json::exception&) {
@@ -71,7 +72,7 @@ std::optional<KernelInterface> readWhole(const fs::path& entry, Route route) try
 /// The interface of a whole entry; nothing where a file is missing, cut short or changed.
 std::optional<KernelInterface> readEntry(const fs::path& entry, Route route) {
   // They run as this process does: whoever can write them is it.
-  for (const fs::path& path : {entry.parent_path(), entry, entry / kInterfaceFile, entry / binaryName(route)})
+  for (const fs::path& path : {entry.parent_path(), entry, entry / kInterfaceFile, entry / routeInfo(route).binary})
     checkOwn(path);
   return readWhole(entry, route);
 }
@@ -106,13 +107,13 @@ struct KernelCache::State {
 
   CompileSettings settings(const KernelRequest& request) {
     CompileSettings settings;
-    const Route route = request.route;
+    const RouteInfo& route = routeInfo(request.route);
     const bool glsl = languageOf(request) == Language::kGlsl;
     if (!glsl) settings.slangc = slangcInUse();
-    if (route == Route::kCpp) settings.cxx = tool(cxx, resolveCxx);
-    if (route == Route::kGlsl || glsl) settings.glslang = tool(glslang, resolveGlslang);
+    if (route.then == SecondCompiler::kCxx) settings.cxx = tool(cxx, resolveCxx);
+    if (route.then == SecondCompiler::kGlslang || glsl) settings.glslang = tool(glslang, resolveGlslang);
     settings.slangSources = options.slangSources;
-    settings.boundsChecks = options.boundsChecks && route == Route::kCpp;
+    settings.boundsChecks = options.boundsChecks && route.compiledChecks;
     settings.cxxFlags = cxxFlags;
     return settings;
   }
@@ -131,13 +132,13 @@ struct KernelCache::State {
     add(request.modules.variant);
     add(settings.slangc.version);
     if (!glsl)
-      for (const std::string& flag : slangFlags(request.route)) add(flag);
+      for (const std::string& flag : routeInfo(request.route).slangFlags) add(flag);
     for (const fs::path& folder : searchFolders(""))
       add(folder.string());  // their order says which of two files is read
     for (const auto& [path, text] : sources)
       add(fs::absolute(path).lexically_normal().lexically_relative(settings.slangSources).string()), add(text);
     add(settings.glslang.version);
-    if (request.route == Route::kCpp) {
+    if (routeInfo(request.route).then == SecondCompiler::kCxx) {
       add(atomicsText(settings.slangSources));
       add(settings.cxx.version);
       add(settings.cxx.targetMacros);
@@ -173,7 +174,7 @@ struct KernelCache::State {
     makeOwnFolder(entry);
     const TemporaryFolder work(options.folder, "work");
     const KernelInterface interface = compileKernel(request, settings, sources, work.path());
-    const fs::path made = work.path() / binaryName(request.route), binary = entry / binaryName(request.route);
+    const fs::path made = work.path() / routeInfo(request.route).binary, binary = entry / made.filename();
     const std::string text = entryText(interface, readText(made));
     makeOwn(made);
     replaceOwn(made, binary);
@@ -211,7 +212,7 @@ bool KernelCache::has(const KernelRequest& request) {
 CompiledKernel KernelCache::get(const KernelRequest& request) {
   const auto [settings, sources, hash, entry] = state_->placeOf(request);
   CompiledKernel kernel{request.stage, binaryEntry(request),
-                        request.route, entry / binaryName(request.route),
+                        request.route, entry / routeInfo(request.route).binary,
                         hash,          {},
                         request.file,  ""};
   if (!request.file.empty()) kernel.fileHash = sha256(sources.at(request.file.lexically_normal()));

@@ -8,6 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "host/axes/routes.h"
+
 namespace tessera {
 namespace {
 
@@ -38,7 +40,7 @@ bool appearsIn(const std::string& text, const std::string& name) {
 
 std::set<std::string> unusedResources(const json& reflection, Route route, const std::string& text) {
   std::set<std::string> unused;
-  if (route == Route::kCpp) {
+  if (!routeInfo(route).spirv) {
     for (const json& parameter : reflection.at("parameters"))
       if (const std::string name = parameter.at("name"); !appearsIn(text, name)) unused.insert(name);
   } else {
@@ -61,14 +63,15 @@ void readBlock(const json& block, KernelInterface& interface) {
 
 KernelInterface readReflection(const std::string& text, Route route, const std::string& generated) try {
   const json reflection = json::parse(text);
+  const bool spirv = routeInfo(route).spirv;
   const std::set<std::string> unused = unusedResources(reflection, route, generated);
   KernelInterface interface;
   for (const json& parameter : reflection.at("parameters")) {
     const std::string name = parameter.at("name");
     const json& binding = parameter.at("binding");
     const json& type = parameter.at("type");
-    const std::uint32_t place = binding.at(route == Route::kCpp ? "offset" : "index");
-    if (route == Route::kCpp)
+    const std::uint32_t place = binding.at(spirv ? "index" : "offset");
+    if (!spirv)
       interface.globalsSize =
           std::max(interface.globalsSize, roundUp(place + binding.at("size").get<std::uint32_t>(), 8));
     else if (binding.value("space", 0) != 0)

@@ -8,9 +8,9 @@
 
 namespace tessera {
 
-/// `json`: what `slangc -reflection-json` wrote; `text`: the C++ that slangc wrote (kCpp), which tells the resources
-/// that it never touches; the reflection for SPIR-V and GLSL says that itself. Resources that are not used are left
-/// out: nobody must bind them. Throws kFailure where the JSON is not what we know.
+/// `json`: what `slangc -reflection-json` wrote; `text`: the C++ that slangc wrote, where the route goes on from C++,
+/// which tells the resources that it never touches; the reflection for SPIR-V and GLSL says that itself. Resources that
+/// are not used are left out: nobody must bind them. Throws kFailure where the JSON is not what we know.
 KernelInterface readReflection(const std::string& json, Route route, const std::string& text);
 
 nlohmann::json toJson(const KernelInterface& interface);

@@ -6,6 +6,7 @@
 #include <regex>
 #include <sstream>
 
+#include "host/axes/routes.h"
 #include "host/kernels/reflection.h"
 #include "host/kernels/slang-sources.h"
 #include "host/kernels/spirv-reflection.h"
@@ -121,7 +122,7 @@ std::vector<std::string> slangCommand(const KernelRequest& request, const ToolIn
 /// Slang's C++ to a shared object.
 void compileCpp(const KernelRequest& request, const CompileSettings& settings, const std::string& generated,
                 const fs::path& work) {
-  const fs::path source = work / "kernel.cpp", made = work / binaryName(request.route);
+  const fs::path source = work / "kernel.cpp", made = work / routeInfo(request.route).binary;
   writeInto(source, (settings.boundsChecks ? kBoundsChecks : "") + atomicsText(settings.slangSources) + generated);
   std::vector<std::string> arguments{settings.cxx.path.string()};
   append(arguments, cxxBaseFlags());
@@ -135,7 +136,7 @@ void compileCpp(const KernelRequest& request, const CompileSettings& settings, c
 /// GLSL to a module, which comes back as words.
 std::vector<std::uint32_t> compileGlsl(const KernelRequest& request, const CompileSettings& settings,
                                        const fs::path& source, const fs::path& work) {
-  const fs::path made = work / binaryName(request.route);
+  const fs::path made = work / routeInfo(request.route).binary;
   runCompiler(request,
               {settings.glslang.path.string(), "-V", "--target-env", "vulkan1.2", "-S", "comp", "-I" + work.string(),
                "-o", made.string(), source.string()},
@@ -166,40 +167,32 @@ const std::vector<std::string>& cxxBaseFlags() {
   return flags;
 }
 
-std::vector<std::string> slangFlags(Route route) {
-  if (route == Route::kCpp)
-    return {"-target", "cpp", "-DTESSERA_CPP", "-fp-mode", "precise", "-line-directive-mode", "none"};
-  if (route == Route::kGlsl) return {"-target", "glsl", "-fp-mode", "precise", "-line-directive-mode", "none"};
-  return {"-target", "spirv", "-O1", "-fp-mode", "precise"};
+std::string binaryEntry(const KernelRequest& request) {
+  return routeInfo(request.route).spirv ? "main" : request.entry;
 }
-
-const char* binaryName(Route route) { return route == Route::kCpp ? "kernel.so" : "kernel.spv"; }
-
-std::string binaryEntry(const KernelRequest& request) { return request.route == Route::kCpp ? request.entry : "main"; }
 
 namespace {
 
 KernelInterface compileSlang(const KernelRequest& request, const CompileSettings& settings,
                              const std::map<fs::path, std::string>& sources, const fs::path& work) {
   const fs::path reflection = work / "reflection.json", dependencies = work / "dependencies";
-  const fs::path made = request.route == Route::kSpirv
-                            ? work / binaryName(request.route)
-                            : work / (request.route == Route::kCpp ? "slang.cpp" : "kernel.comp");
+  const RouteInfo& route = routeInfo(request.route);
+  const fs::path made = work / route.written, binary = work / route.binary;
   std::vector<std::string> arguments =
-      slangCommand(request, settings.slangc, settings.slangSources, slangFlags(request.route), work, made);
+      slangCommand(request, settings.slangc, settings.slangSources, route.slangFlags, work, made);
   append(arguments, {"-reflection-json", reflection.string(), "-depfile", dependencies.string()});
   runCompiler(request, arguments, made);
 
   if (fs::exists(dependencies)) checkDependencies(readText(dependencies), sources, work);
-  const std::string generated = request.route == Route::kCpp ? readText(made) : "";
-  if (request.route == Route::kCpp) compileCpp(request, settings, generated, work);
-  if (request.route == Route::kGlsl) {
+  const std::string generated = route.then == SecondCompiler::kCxx ? readText(made) : "";
+  if (route.then == SecondCompiler::kCxx) compileCpp(request, settings, generated, work);
+  if (route.then == SecondCompiler::kGlslang) {
     std::vector<std::uint32_t> words = compileGlsl(request, settings, made, work);
     decorateNoContraction(words);
-    writeSpirv(work / binaryName(request.route), words);
+    writeSpirv(binary, words);
   }
-  if (request.route != Route::kCpp && request.file.empty())
-    if (const std::vector<std::string> violations = checkSpirv(work / binaryName(request.route)); !violations.empty())
+  if (route.spirv && request.file.empty())
+    if (const std::vector<std::string> violations = checkSpirv(binary); !violations.empty())
       fail(fmt::format("its SPIR-V is not exact: {}", violations[0]));
   return readReflection(readText(reflection), request.route, generated);
 }
@@ -225,10 +218,9 @@ Written writtenBySlang(const KernelRequest& request, const std::string& target, 
                        const fs::path& slangSources) {
   const TemporaryFolder work(temporaryRoot(), "tessera-emit");
   const fs::path made = work.path() / "made", reflection = work.path() / "reflection.json";
-  const bool cpp = request.route == Route::kCpp;
+  const RouteInfo& route = routeInfo(request.route);
   std::vector<std::string> flags{"-target", target, "-fp-mode", "precise", "-line-directive-mode", "none"};
-  if (cpp) flags = slangFlags(request.route);
-  if (target == "spirv") flags = slangFlags(request.route);
+  if (target == route.name) flags = route.slangFlags;
   if (target == "wgsl") flags.push_back("-DTESSERA_WGSL");  // slang/machine/atomics.slang
   // Buffers are called as in Slang; in C++ and CUDA they are members, which keep their numbers.
   for (const char* const unmangled : {"wgsl", "glsl", "hlsl", "metal"})
@@ -236,7 +228,8 @@ Written writtenBySlang(const KernelRequest& request, const std::string& target, 
   flags.insert(flags.end(), {"-reflection-json", reflection.string()});
   try {
     runCompiler(request, slangCommand(request, slangc, slangSources, flags, work.path(), made), made);
-    std::string text = cpp ? atomicsText(slangSources) + readText(made) : readText(made);
+    const bool cxx = route.then == SecondCompiler::kCxx;
+    std::string text = (cxx ? atomicsText(slangSources) : "") + readText(made);
     // WGSL reserves this word (W3C, WebGPU Shading Language, section 16.2).
     if (target == "wgsl") text = std::regex_replace(text, std::regex(R"(\battribute\b)"), "attribute_0");
     return {std::move(text), readText(reflection)};

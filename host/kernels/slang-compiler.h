@@ -15,25 +15,21 @@ namespace tessera {
 /// All that decides what comes out, but for the text of the sources.
 struct CompileSettings {
   ToolInfo slangc;
-  CxxInfo cxx;       ///< kCpp
-  ToolInfo glslang;  ///< kGlsl
+  CxxInfo cxx;       ///< of routes that go on from C++
+  ToolInfo glslang;  ///< of routes that go on from GLSL
   std::filesystem::path slangSources;
-  bool boundsChecks = false;          ///< kCpp
-  std::vector<std::string> cxxFlags;  ///< kCpp: after those of cxxBaseFlags()
+  bool boundsChecks = false;          ///< RouteInfo::compiledChecks
+  std::vector<std::string> cxxFlags;  ///< after those of cxxBaseFlags()
 };
 
 /// Flags of every C++ kernel. They leave IEEE results alone: -ffp-contract=off keeps x * y + z two operations;
 /// -fno-math-errno and -fno-trapping-math give up errno and the exception flags, which nobody reads, so that square
 /// roots and selects become vectors.
 const std::vector<std::string>& cxxBaseFlags();
-/// Flags of slangc for this route, without files and the entry point.
-std::vector<std::string> slangFlags(Route route);
-/// Binary's name in a cache entry: kernel.so or kernel.spv.
-const char* binaryName(Route route);
 /// Name of the entry point in the binary.
 std::string binaryEntry(const KernelRequest& request);
 
-/// Compiles into `work`, an existing folder of its own, leaving the binary under binaryName(). `sources` is what
+/// Compiles into `work`, an existing folder of its own, leaving the binary under RouteInfo::binary. `sources` is what
 /// slangSources() found. Throws kFailure: stage, variant, and the compiler's first error with file and line.
 KernelInterface compileKernel(const KernelRequest& request, const CompileSettings& settings,
                               const std::map<std::filesystem::path, std::string>& sources,

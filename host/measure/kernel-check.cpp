@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <tessera/cpu-device.h>
 #include <tessera/error.h>
 #include <tessera/plan.h>
 
@@ -11,9 +10,11 @@
 #include <cstdio>
 #include <mutex>
 #include <thread>
+#include <utility>
 
-#include "host/devices/open.h"
+#include "host/axes/routes.h"
 #include "host/devices/kernel-fault.h"
+#include "host/devices/open.h"
 #include "host/kernels/user-kernel.h"
 #include "host/plan/stages.h"
 #include "host/support/terminal.h"
@@ -23,8 +24,8 @@ namespace {
 
 constexpr auto kPatience = std::chrono::seconds(10);
 
-/// What the CPU device takes of these; the rest is refused there or cannot run there at all, and its own device says
-/// so.
+/// What a device with compiled checks takes of these; the rest is refused there or cannot run there at all, and its own
+/// device says so.
 KernelFiles runnable(const KernelFiles& files, const Plan& plan, const KernelCache::Options& options) {
   KernelFiles taken;
   for (const auto& [stage, file] : files) {
@@ -39,6 +40,14 @@ KernelFiles runnable(const KernelFiles& files, const Plan& plan, const KernelCac
     }
   }
   return taken;
+}
+
+/// The first kind of devices that takes a route with compiled checks, and that route; null where no kind does.
+std::pair<const DeviceKind*, std::string> compiledChecks() {
+  for (const DeviceKind& kind : deviceKinds())
+    for (const std::string& route : kind.routes)
+      if (routeNamed(route).compiledChecks) return {&kind, route};
+  return {nullptr, ""};
 }
 
 /// Says a line where the work is not done after a while: a kernel may never end.
@@ -77,10 +86,10 @@ struct KernelCheck::State {
   };
   std::vector<Checked> all;
 
-  /// On the CPU the checks are compiled into the kernels.
-  void addCpu(Variant variant, const KernelFiles& files) {
-    variant.set("route", "cpp");
-    std::unique_ptr<Device> device = makeCpuDevice();
+  /// On a device of this kind by this route, where the checks are compiled into the kernels.
+  void addCompiled(const std::string& kind, const std::string& route, Variant variant, const KernelFiles& files) {
+    variant.set("route", route);
+    std::unique_ptr<Device> device = openDevice(kind);
     const Plan plan = makePlan(scene, variant, device->info());
     KernelCache::Options options;
     options.boundsChecks = true;
@@ -91,9 +100,9 @@ struct KernelCheck::State {
     all.push_back({std::move(variant), options.files, std::move(device), std::move(kernels)});
   }
 
-  /// On Vulkan the device puts them into the kernels as they are.
-  void addVulkan(const KernelRun& run, const KernelFiles& files) {
-    std::unique_ptr<Device> device = openDevice(run.device, 0, true);
+  /// On a device that puts the checks into the kernels as they are.
+  void addChecking(const KernelRun& run, const KernelFiles& files) {
+    std::unique_ptr<Device> device = openDevice(run.device, {.boundsChecks = true});
     auto kernels = std::make_unique<KernelCache>(KernelCache::Options{.files = files});
     compileStages(*kernels, makePlan(scene, run.variant, device->info()));
     all.push_back({run.variant, files, std::move(device), std::move(kernels)});
@@ -125,9 +134,10 @@ KernelCheck::KernelCheck(const Scene& scene, const KernelFiles& files, const std
       if (error.code() != ExitCode::kUnsupported) throw;  // a variant for another device alone
     }
   };
-  add([&] { state_->addCpu(runs.front().variant, files); });
+  if (const auto [kind, route] = compiledChecks(); kind != nullptr)
+    add([&] { state_->addCompiled(kind->name, route, runs.front().variant, files); });
   for (const KernelRun& run : runs)
-    if (run.device != "cpu") add([&] { state_->addVulkan(run, files); });
+    if (kindOf(run.device).checksBounds) add([&] { state_->addChecking(run, files); });
 }
 
 KernelCheck::~KernelCheck() = default;

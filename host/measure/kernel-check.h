@@ -18,9 +18,10 @@ struct KernelRun {
   Variant variant;
 };
 
-/// A frame on the CPU device, of those kernels that run there, whatever device they are for: there an integer division
-/// by zero is seen, too. Then one for each run on a Vulkan device, there, of all kernels. A run that its device refuses
-/// has none: its own frame says why.
+/// A frame on the first kind of devices whose kernels have compiled checks (the CPU device), of those kernels that run
+/// there, whatever device they are for: there an integer division by zero is seen, too. Then a frame for each run on a
+/// device that checks indices itself (a Vulkan device), there, of all kernels. A run that its device refuses has no
+/// frame: the run's own frame says why.
 class KernelCheck {
  public:
   /// Compiles all stages with checks, ours too: what a user's kernel wrote may be what ours stumbles over.

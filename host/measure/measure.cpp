@@ -10,6 +10,7 @@
 #include <set>
 #include <tuple>
 
+#include "host/axes/routes.h"
 #include "host/kernels/user-kernel.h"
 #include "host/oracle/oracle-image.h"
 #include "host/plan/stages.h"
@@ -57,7 +58,8 @@ Run beginRun(const Scene& scene, const Variant& variant, const Device& device, c
   try {
     run.kernelCompiler = kernels.cxx();
   } catch (const Error&) {
-    if (device.info().api == "cpu") throw;  // other devices do without
+    const auto needed = [](const std::string& name) { return routeNamed(name).then == SecondCompiler::kCxx; };
+    if (std::ranges::any_of(device.info().routes, needed)) throw;  // other devices do without
   }
   return run;
 }

@@ -1,8 +1,10 @@
 #include "host/measure/probe-text.h"
 
+#include "host/axes/routes.h"
+
 namespace tessera {
 
-std::string routeName(Route route) { return route == Route::kCpp ? "cpp" : route == Route::kSpirv ? "spirv" : "glsl"; }
+std::string routeName(Route route) { return routeInfo(route).name; }
 
 std::string verdictOf(const Probe& probe) {
   return probe.passed() ? "passed" : probe.onlyFlushes() ? "flushes denormals" : "FAILED";

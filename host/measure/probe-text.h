@@ -8,7 +8,7 @@
 
 namespace tessera {
 
-std::string routeName(Route route);            ///< "cpp", "spirv" or "glsl"
+std::string routeName(Route route);            ///< as on the axis `route`
 std::string verdictOf(const Probe& probe);     ///< "passed", "flushes denormals" or "FAILED"
 std::string firstFailure(const Probe& probe);  ///< "divide: 1/3 gives ..."; "" when it passed
 

@@ -6,13 +6,14 @@
 
 #include <algorithm>
 
+#include "host/axes/routes.h"
+
 namespace tessera {
 
 std::optional<std::string> missingNeed(const AxisValue& value, const DeviceInfo& device) {
+  if (!fulfils(device.routes, value))
+    return fmt::format("it is for {}{}", devicesFor(value), value.limits.empty() ? "" : ": " + value.limits);
   const Needs& needs = value.needs;
-  if (needs.cpu && device.api != "cpu")
-    return value.limits.empty() ? "it is for the CPU device" : "it is for the CPU device: " + value.limits;
-  if (needs.vulkan && device.api != "vulkan") return "it is for Vulkan devices";
   if (needs.float64 && !device.float64) return device.name + " has no 64-bit floats (shaderFloat64)";
   if (needs.int64 && !device.int64) return device.name + " has no 64-bit integers (shaderInt64)";
   if (needs.atomicMin64 && !device.atomicMin64)

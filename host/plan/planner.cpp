@@ -29,7 +29,7 @@ class Planner {
 
   Plan run() {
     choice_.take("plan", {"planned"});
-    choice_.take("route", {"cpp", "spirv"});
+    choice_.take("route", device_.routes);
     geometry();
     bins();
     raster();
@@ -145,6 +145,7 @@ class Planner {
       if (need.runs) plan.stages.push_back(stage.name);
       std::ranges::move(need.entries, std::back_inserter(plan.entries));
     }
+    for (const Stream& stream : scene_.streams) plan.streams.push_back(stream.name);
     plan.resolved = choice_.resolved();
     return plan;
   }
@@ -166,6 +167,7 @@ Plan planFrame(const Scene& scene, const Variant& variant, const DeviceInfo& dev
   if (scene.width == 0 || scene.height == 0 || scene.width > kMaxExtent || scene.height > kMaxExtent)
     failUsage(
         fmt::format("size {}x{}: width and height go from 1 to {} pixels", scene.width, scene.height, kMaxExtent));
+  if (device.routes.empty()) failUsage(fmt::format("{}: it names no route for kernels; one would do", device.name));
   return Planner(scene, variant, device, binsOf).run();
 }
 

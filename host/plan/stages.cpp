@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "host/axes/routes.h"
 #include "host/kernels/user-kernel.h"
 #include "host/plan/needs.h"
 #include "host/support/suggest.h"
@@ -59,12 +60,11 @@ std::uint64_t groupsOf(const Stage& stage, const UniformValue& uniform) {
 
 KernelRequest kernelRequest(std::string_view name, const Plan& plan) {
   const Stage& stage = stageOf(name);
-  const std::string route = plan.resolved.get("route");
   KernelRequest request;
   request.stage = stage.name;
   request.source = stage.source;
   request.entry = stage.entry;
-  request.route = route == "cpp" ? Route::kCpp : route == "glsl" ? Route::kGlsl : Route::kSpirv;
+  request.route = routeNamed(plan.resolved.get("route")).route;
   request.modules = variantModules(name, plan.resolved);
   for (const Axis& axis : axes())
     if (std::ranges::find(axis.stages, name) != axis.stages.end())
@@ -99,6 +99,7 @@ std::vector<CompiledKernel> compileStages(KernelCache& cache, const Plan& plan) 
     all.elementSizes.insert(kernel.interface.elementSizes.begin(), kernel.interface.elementSizes.end());
     all.fields.insert(kernel.interface.fields.begin(), kernel.interface.fields.end());
   }
+  for (const std::string& stream : plan.streams) all.elementSizes.emplace(stream, sizeof(float));
   for (std::size_t i = 0; i < kernels.size(); ++i)
     if (!kernels[i].file.empty()) checkInterface(kernels[i], own[i].interface, all);
   return kernels;

@@ -21,7 +21,7 @@ TEST_CASE("An edit of a user's kernel or of what it includes compiles it again")
   std::filesystem::copy_file(shared.folder() / "tools.json", options.folder / "tools.json");
   KernelCache cache(options);
   DeviceInfo device;
-  device.api = "vulkan";
+  device.routes = {"spirv", "glsl"};
   const Plan plan = makePlan(smallScene(), {{"shade", "id"}}, device);
 
   std::size_t compiled = 0;

@@ -9,6 +9,7 @@
 #include <optional>
 #include <set>
 
+#include "host/axes/routes.h"
 #include "host/axes/settings.h"
 #include "host/devices/vulkan/spirv-module.h"
 #include "host/kernels/spirv-bounds.h"
@@ -47,11 +48,10 @@ Scene simpleScene(bool objectSpace) {
 
 std::vector<KernelRequest> kernelsOf(const Stage& stage, Route route, std::size_t strength) {
   DeviceInfo device;
-  device.api = route == Route::kCpp ? "cpu" : "vulkan";
+  device.routes = {routeInfo(route).name};
   Scene scene = simpleScene(stage.name != "project");
   if (stage.name == "attribute") attributeOf(scene).assign(scene.vertexCount(), 1.0f);
   Variant base = settingFor(stage.name);
-  if (route == Route::kGlsl) base.set("route", "glsl");
   std::vector<AxisValues> axesRead;
   for (const Axis& a : axes())
     if (std::ranges::count(a.stages, stage.name) && !base.has(a.name)) {

@@ -34,7 +34,7 @@ CompiledKernel projectKernel(Route route) {
 
 /// Whether no plan dispatches the stage with this value.
 bool neverRuns(const std::string& stage, const Axis& axis, const AxisValue& value, Route route) {
-  if (value.needs.cpu && route != Route::kCpp) return true;
+  if (value.needs.oneThreadGroups && route != Route::kCpp) return true;
   if (axis.name == "shade") return value.name == "none" || (stage == "payload" && value.name == "smooth");
   if (axis.name == "binning") return value.name == "none" || (stage == "bin-insert" && value.name == "aabb-scan");
   if (axis.name != "commit") return false;

@@ -55,7 +55,7 @@ Variant settingFor(const std::string& stage) {
 std::optional<Plan> planWith(const std::string& stage, const std::string& axis, const std::string& value) {
   DeviceInfo device;
   const bool cpu = value == "cpp" || value == "lock";  // those two are for the CPU device
-  device.api = cpu ? "cpu" : "vulkan";
+  device.routes = cpu ? std::vector<std::string>{"cpp"} : std::vector<std::string>{"spirv", "glsl"};
   Variant variant = settingFor(stage);
   variant.set(axis, value);
   Scene scene = triangleScene();

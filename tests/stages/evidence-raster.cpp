@@ -10,7 +10,7 @@ namespace {
 std::vector<std::uint32_t> rasterModule(const Variant& variant) {
   KernelCache cache;
   DeviceInfo device;
-  device.api = "vulkan";
+  device.routes = {"spirv", "glsl"};
   return readSpirv(cache.get(kernelRequest("raster-tiles", makePlan(Scene{}, variant, device))).binary);
 }
 /// Instructions of a module that `counts` is true of, by opcode and first operand.

@@ -15,13 +15,13 @@ namespace {
 
 DeviceInfo cpu() {
   DeviceInfo info;
-  info.api = "cpu";
+  info.routes = {"cpp"};
   info.name = "test processor";
   return info;
 }
 DeviceInfo vulkan() {
   DeviceInfo info;
-  info.api = "vulkan";
+  info.routes = {"spirv", "glsl"};
   info.name = "test GPU";
   return info;
 }

@@ -19,7 +19,7 @@ const std::set<std::uint32_t> kWideCapabilities{10, 11, 12};  // Float64, Int64,
 
 DeviceInfo device32() {
   DeviceInfo device;
-  device.api = "vulkan";
+  device.routes = {"spirv", "glsl"};
   device.name = "a 32-bit device";
   device.int64 = device.float64 = device.atomicMin64 = false;
   return device;

@@ -17,6 +17,7 @@
 
 #include "host/devices/cpu/crew.h"
 #include "host/devices/kernel-fault.h"
+#include "host/devices/kinds.h"
 #include "host/kernels/compiler-tools.h"
 #include "host/support/machine.h"
 
@@ -154,7 +155,9 @@ class CpuDevice final : public Device {
   explicit CpuDevice(const CpuOptions& options)
       : shuffleSeed_(options.shuffleSeed),
         crew_(options.plainThreads || kPlainThreads ? makePlainCrew(options.threads) : makeTbbCrew(options.threads)) {
-    info_.api = "cpu";
+    const DeviceKind kind = cpuKind();
+    info_.api = kind.name;
+    info_.routes = kind.routes;
     info_.name = processorName();
     info_.driver = cpuDriverText();
     info_.threads = crew_->threads();

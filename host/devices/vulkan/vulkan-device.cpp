@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "host/devices/kernel-fault.h"
+#include "host/devices/kinds.h"
 #include "host/devices/vulkan/fault-record.h"
 #include "host/devices/vulkan/recording.h"
 
@@ -43,7 +44,9 @@ DeviceInfo describe(const Adapter& adapter) {
       adapter.physical.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceMaintenance3Properties>()
           .get<vk::PhysicalDeviceMaintenance3Properties>();
   DeviceInfo info;
-  info.api = "vulkan";
+  const DeviceKind kind = vulkanKind();
+  info.api = kind.name;
+  info.routes = kind.routes;
   info.name = adapter.name();
   info.driver = fmt::format("{}, Vulkan {}", adapter.driverText(), adapter.apiVersionText());
   info.correctnessOnly = adapter.isSoftware();

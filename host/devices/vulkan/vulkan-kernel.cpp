@@ -5,6 +5,7 @@
 #include <spirv/unified1/spirv.hpp>
 #include <utility>
 
+#include "host/axes/routes.h"
 #include "host/devices/kernel-fault.h"
 #include "host/devices/vulkan/spirv-module.h"
 
@@ -55,7 +56,7 @@ void checkLimits(const SpirvModule& module, std::size_t storageBuffers, const Ad
 VulkanKernel::VulkanKernel(std::shared_ptr<Machine> machine, const CompiledKernel& compiled)
     : compiled_(compiled), description_(describe(compiled, "vulkan")) {
   const std::string who = fmt::format("kernel {}", compiled.stage);
-  if (compiled.route == Route::kCpp) fail(who + ": compiled for the CPU, a Vulkan device takes SPIR-V");
+  if (!routeInfo(compiled.route).spirv) fail(who + ": compiled for the CPU, a Vulkan device takes SPIR-V");
   SpirvModule module = readModule(compiled.binary);
 
   std::vector<vk::DescriptorSetLayoutBinding> bindings;

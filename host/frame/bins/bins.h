@@ -40,10 +40,4 @@ class Bins : public BinsPlan {
 /// The binning of that name. Throws kFailure where none has it.
 std::unique_ptr<Bins> makeBins(std::string_view binning);
 
-std::unique_ptr<Bins> makeNone();
-std::unique_ptr<Bins> makeAabbScan();
-std::unique_ptr<Bins> makeQueue();
-std::unique_ptr<Bins> makeExact();
-std::unique_ptr<Bins> makeBitmask();
-
 }  // namespace tessera

@@ -8,6 +8,13 @@
 #include "host/support/suggest.h"
 
 namespace tessera {
+
+std::unique_ptr<Bins> makeNone();
+std::unique_ptr<Bins> makeAabbScan();
+std::unique_ptr<Bins> makeQueue();
+std::unique_ptr<Bins> makeExact();
+std::unique_ptr<Bins> makeBitmask();
+
 namespace {
 
 struct Binning {

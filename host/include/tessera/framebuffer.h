@@ -18,7 +18,8 @@ inline constexpr std::uint32_t kNoTriangle = 0xffffffffu;  ///< id of an empty p
 
 /// Of an attribute: what a picture's colours span, and what errors are relative to.
 struct ValueRange {
-  float least = 0, most = 1;
+  float least = 0;  ///< in the attribute's unit
+  float most = 1;   ///< in the attribute's unit, not equal to `least`
 };
 
 enum class ChannelType { kFloat32, kUint32 };
@@ -43,10 +44,10 @@ struct ChannelView {
   std::span<const std::byte> bytes;  ///< 4 * components * pixels
 };
 
-/// Row-major, row 0 at the top, width * height elements in each vector that is not empty.
+/// An image on the host. Row-major, row 0 at the top, width * height elements in each vector that is not empty.
 struct Framebuffer {
-  std::uint32_t width = 0;
-  std::uint32_t height = 0;
+  std::uint32_t width = 0;          ///< pixels
+  std::uint32_t height = 0;         ///< pixels
   std::vector<float> depth;         ///< [+0, 1]; empty under commit=count
   std::vector<std::uint32_t> ids;   ///< triangle id or kNoTriangle; empty under commit=count
   std::vector<std::uint32_t> hits;  ///< triangles that cover the sample; only under commit=count
@@ -55,6 +56,7 @@ struct Framebuffer {
   /// NaN (0x7fc00000) in empty pixels and where a vertex' value is not finite.
   std::vector<Channel> channels = {};
 
+  /// width * height.
   std::size_t pixels() const { return std::size_t{width} * height; }
   /// Null where there is no such channel.
   const Channel* channel(std::string_view name) const;

@@ -18,8 +18,8 @@ struct KernelRequest {
   std::string stage;   ///< for messages and CompiledKernel::stage
   std::string source;  ///< file under slang/, e.g. "stages/raster-tiles.slang"
   std::string entry;   ///< entry point
-  Route route = Route::kCpp;
-  VariantModules modules;
+  Route route = Route::kCpp;        ///< how it is compiled
+  VariantModules modules;           ///< the generated modules that it imports
   std::string variantName;          ///< "axis=value axis=value", for messages
   std::filesystem::path file = {};  ///< a user's kernel in place of `source`, see user-kernel.h
 };
@@ -27,17 +27,19 @@ struct KernelRequest {
 /// Kernels that a user brings: stage -> file.
 using KernelFiles = std::map<std::string, std::filesystem::path>;
 
+/// A compiler that kernels are compiled with.
 struct ToolInfo {
-  std::filesystem::path path;
-  std::string version;
+  std::filesystem::path path;  ///< where the program lies
+  std::string version;         ///< the version, as the program says it
   std::string origin;  ///< "SLANGC", "PATH" or "tools" (the pinned one that ./dev fetched)
 };
 
-/// Content-addressed: the key holds the text of the Slang sources that the kernel imports, the generated modules,
-/// flags, slangc's and the C++ compiler's versions, and the resolved CPU target. Safe when two processes fill it at
-/// once (written beside, renamed); a broken entry is rebuilt. Thread-safe.
+/// Compiled kernels in a folder of files, content-addressed: the key holds the text of the Slang sources that the
+/// kernel imports, the generated modules, flags, slangc's and the C++ compiler's versions, and the resolved CPU target.
+/// Safe when two processes fill it at once (written beside, renamed); a broken entry is rebuilt. Thread-safe.
 class KernelCache {
  public:
+  /// Where the cache lies and how it compiles.
   struct Options {
     std::filesystem::path folder =
         {};  ///< default: $TESSERA_CACHE, else $XDG_CACHE_HOME/tessera, else ~/.cache/tessera
@@ -49,10 +51,15 @@ class KernelCache {
         {};  ///< stages that run these in place of their own kernels, whatever renders with this cache.
              ///< They are native code; the command line checks their indices first, the library does not
   };
+  /// How many kernels this object was asked for, by what it had to do for them.
   struct Statistics {
-    std::size_t hits = 0, compiled = 0, rebuilt = 0;
-  };  ///< rebuilt: broken entries, among the compiled
-  KernelCache();
+    std::size_t hits = 0;      ///< kernels that the folder had
+    std::size_t compiled = 0;  ///< kernels that were compiled
+    std::size_t rebuilt = 0;   ///< broken entries, among the compiled
+  };
+  KernelCache();  ///< a cache with the default options
+  /// Throws kUsage where the Slang sources are not there, and where the folder belongs to another user or can be
+  /// written by others. Compilers are looked for when the first kernel needs them.
   explicit KernelCache(Options options);
   ~KernelCache();
   KernelCache(const KernelCache&) = delete;
@@ -67,10 +74,10 @@ class KernelCache {
 
   const KernelFiles& files() const;  ///< those of the options
   const ToolInfo& slangc() const;    ///< the compiler in use: one whose SPIR-V passes checkSpirv()
-  std::string cxx() const;           ///< "g++ 12.2.0, -O3 -march=native ... (znver4)"
-  std::filesystem::path folder() const;
+  std::string cxx() const;           ///< the C++ compiler in use, e.g. "g++ 12.2.0, -O3 -march=native ... (znver4)"
+  std::filesystem::path folder() const;         ///< where the compiled kernels lie
   std::filesystem::path sourcesFolder() const;  ///< the Slang sources in use
-  Statistics statistics() const;
+  Statistics statistics() const;                ///< since this object was made
 
  private:
   struct State;

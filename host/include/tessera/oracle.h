@@ -9,28 +9,44 @@
 #include <string>
 #include <vector>
 
+/// The oracle, which shares no code with the kernels.
 namespace tessera::reference {
 
+/// Which sides of triangles are dropped, as the axis `cull`.
+enum class Cull {
+  kNone,  ///< no side
+  kBack,  ///< triangles that are clockwise on the screen
+  kFront  ///< triangles that are counter-clockwise on the screen
+};
+/// Which samples on an edge are covered, as the axis `fill`.
+enum class Fill {
+  kTopLeft,   ///< samples on top and left edges
+  kInclusive  ///< samples on all edges
+};
+/// How depth is computed from the corners, as the axis `interpolate`; the contract's section Depth has the formulas.
+enum class Interpolate {
+  kCellPlane,  ///< by the triangle's plane, rebased to cells of 8 x 8 pixels
+  kPlane,      ///< by the triangle's plane
+  kWeights     ///< by barycentric weights
+};
 /// The image-defining axes. Further values join here as the axes of variant.h gain them.
-enum class Cull { kNone, kBack, kFront };
-enum class Fill { kTopLeft, kInclusive };
-enum class Interpolate { kCellPlane, kPlane, kWeights };
 struct Image {
-  Cull cull = Cull::kNone;
-  Fill fill = Fill::kTopLeft;
-  Interpolate interpolate = Interpolate::kCellPlane;
-  int subPixelBits = 8;  ///< 0, 4, 6 or 8
+  Cull cull = Cull::kNone;                            ///< the axis `cull`
+  Fill fill = Fill::kTopLeft;                         ///< the axis `fill`
+  Interpolate interpolate = Interpolate::kCellPlane;  ///< the axis `interpolate`
+  int subPixelBits = 8;                               ///< the axis `sub-pixel`: 0, 4, 6 or 8
 };
 
 /// One oriented, snapped piece, as it enters coverage. Positions in 1/256 pixel.
 struct Piece {
-  std::uint32_t id;
-  std::int32_t x[3], y[3];
-  float z[3];
+  std::uint32_t id;   ///< id of the piece's triangle
+  std::int32_t x[3];  ///< of each corner, in 1/256 pixel from the left
+  std::int32_t y[3];  ///< of each corner, in 1/256 pixel from the top
+  float z[3];         ///< depth of each corner, in [+0, 1]
 };
 
-/// A triangle is in at most one of badIndex, nonFinite and outside; a piece in at most one of behind, zeroArea and
-/// facing.
+/// What became of the triangles and pieces. A triangle is in at most one of badIndex, nonFinite and outside; a piece in
+/// at most one of behind, zeroArea and facing.
 struct Counts {
   std::uint64_t submitted = 0;  ///< triangles
   std::uint64_t badIndex = 0;   ///< triangles with an index out of range
@@ -39,23 +55,25 @@ struct Counts {
   std::uint64_t clipped = 0;    ///< triangles with a vertex outside a clip plane, those of `outside` among them
   std::uint64_t behind =
       0;  ///< pieces with a w that is not > 0, a 1/w that is not finite, or a position that overflowed
-  std::uint64_t zeroArea = 0;  ///< pieces
-  std::uint64_t facing = 0;    ///< pieces
+  std::uint64_t zeroArea = 0;  ///< pieces of area 0 after snapping
+  std::uint64_t facing = 0;    ///< pieces that `cull` drops
   std::uint64_t covered = 0;   ///< samples, each hit counted
 };
 
+/// What render() gives.
 struct Result {
   Framebuffer image;  ///< depth, ids and hits, and values where the scene has some; in the contract's float32 order
-  Counts counts;
+  Counts counts;      ///< what became of triangles and pieces
   double depthMaxAbs = 0;  ///< largest |float32 depth - exact depth of the snapped piece| over the visible pixels
   double depthMaxUlp = 0;  ///< the same in units of the last place of the exact value
 };
 
-/// float32 clip positions of a scene by the contract's transform, or its given ones.
+/// float32 clip positions of a scene by the contract's transform, or its given ones; one a vertex.
 std::vector<glm::vec4> transform(const Scene& scene);
-/// Pieces of all triangles, in id order, by the contract's clip, projection, snap and orientation.
+/// Pieces of all triangles, in id order, by the contract's clip, projection, snap and orientation. `counts`, where it
+/// is not null, gets all but Counts::covered.
 std::vector<Piece> pieces(const Scene& scene, const Image& image, Counts* counts = nullptr);
-/// `measureDepth` also fills depthMaxAbs and depthMaxUlp (slower).
+/// The image of the scene by the contract. `measureDepth` also fills depthMaxAbs and depthMaxUlp (slower).
 Result render(const Scene& scene, const Image& image = {}, bool measureDepth = false);
 
 /// Values of a frame whose ids are there: each stream of the scene that is interpolated, by the contract and in its
@@ -67,9 +85,11 @@ void interpolate(const Scene& scene, const Image& image, Framebuffer& frame);
 /// Exact is the contract's section Attributes in real numbers: the linear interpolation over the snapped triangle, or
 /// the perspective-correct one over the triangle in clip space, right to about 2^-100 of its terms.
 struct AttributeError {
-  double max = 0, rms = 0;
-  std::uint64_t pixels = 0;  ///< that were measured
+  double max = 0;            ///< largest error
+  double rms = 0;            ///< root of the mean square
+  std::uint64_t pixels = 0;  ///< how many pixels were measured
 };
+/// Measures the attribute of a frame that any device has rendered. The frame holds ids and attribute.
 AttributeError attributeError(const Scene& scene, const Image& image, const Framebuffer& frame);
 
 }  // namespace tessera::reference

@@ -14,7 +14,7 @@ namespace tessera {
 /// What a plan says about one stage, or about a switch of a stage.
 struct PlanEntry {
   std::string pass;  ///< the stage's name, or "STAGE: switch"
-  bool kept = true;
+  bool kept = true;  ///< whether a frame does it
   std::string why;  ///< one line
 };
 
@@ -22,6 +22,7 @@ struct PlanEntry {
 struct Plan {
   std::vector<PlanEntry> entries;   ///< in pipeline order
   std::vector<std::string> stages;  ///< that a frame may dispatch, retries among them, in pipeline order
+  std::vector<std::string> streams; ///< of the scene, by name: a kernel may bind each as a buffer of floats
   Variant resolved;                 ///< a value for every axis
 
   /// Whether a frame may dispatch the stage.

@@ -75,6 +75,7 @@ class KernelCache;
 /// What a frame counted, by name; counterDocs() lists the names and their meanings.
 using Counters = std::map<std::string, std::uint64_t>;
 
+/// How long a frame took, in nanoseconds of DeviceInfo::timeClock.
 struct FrameTimes {
   std::uint64_t totalNs = 0;                                  ///< first dispatch to finished visibility buffer
   std::vector<std::pair<std::string, std::uint64_t>> stages;  ///< summed by stage, in pipeline order
@@ -83,20 +84,22 @@ struct FrameTimes {
 /// What a stage wrote, in an order that does not depend on scheduling, so that two devices can be compared stage by
 /// stage.
 struct StageOutput {
-  std::string stage;
+  std::string stage;      ///< the stage's name
   std::string element;    ///< what one element is
   std::size_t words = 1;  ///< 32-bit words an element
-  std::vector<std::uint32_t> values;
+  std::vector<std::uint32_t> values;  ///< `words` words an element
 };
 
+/// What render() gives.
 struct Frame {
-  Framebuffer image;
-  Counters counters;
-  FrameTimes times;
+  Framebuffer image;                ///< empty where FrameOptions::readBack is false
+  Counters counters;                ///< what was counted
+  FrameTimes times;                 ///< how long it took
   Plan plan;                        ///< what ran, what was left out, why
   std::vector<StageOutput> stages;  ///< in pipeline order; only of frames that ran in one band and one batch
 };
 
+/// What a frame gives beside its counters and times.
 struct FrameOptions {
   bool readBack = true;     ///< fill Frame::image
   bool countWork = false;   ///< also count tests, covered samples and atomics (slower kernels)
@@ -107,10 +110,12 @@ struct FrameOptions {
 /// Throws Error: kUnsupported for a variant that the device cannot run, kOverflow under overflow=error.
 class Rasterizer {
  public:
-  Rasterizer(Device& device, KernelCache& kernels);
+  Rasterizer(Device& device, KernelCache& kernels);  ///< both have to outlive it
   ~Rasterizer();
   Rasterizer(const Rasterizer&) = delete;
 
+  /// Renders the scene once. Axes that `variant` does not set are the plan's choice. Throws kUsage for axes that do not
+  /// go together or with the scene; other codes as above.
   Frame render(const Scene& scene, const Variant& variant = {}, const FrameOptions& options = {});
 
  private:

@@ -17,6 +17,7 @@ namespace tessera {
 using Triangle = std::array<std::uint32_t, 3>;  ///< vertex indices; may be out of range, the pipeline counts those
 using Matrix = std::array<float, 16>;           ///< row-major
 
+/// The matrix that changes nothing.
 inline constexpr Matrix kIdentity{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
 inline constexpr std::uint32_t kMaxExtent = 32768;  ///< largest width and height, pixels
 
@@ -38,20 +39,21 @@ inline constexpr const char* kNormals = "normals";
 /// Arrays may be borrowed (see Array): rendering reads them in place on the CPU device, and copies them on a Vulkan
 /// device. Nothing of them is kept when render() returns.
 struct Scene {
-  std::string name;
-  std::uint32_t width = 1024;   ///< pixels, 1 to kMaxExtent
-  std::uint32_t height = 1024;  ///< pixels, 1 to kMaxExtent
-  Array<glm::vec3> positions;   ///< object space: the input's coordinates less `origin`
-  Array<glm::vec4> clip;        ///< clip space, given as they are (replay files, tests): no transform runs
-  Array<Triangle> triangles;
-  std::vector<Stream> streams;
-  Matrix clipFromObject = kIdentity;
+  std::string name;                   ///< for rows and messages
+  std::uint32_t width = 1024;         ///< pixels, 1 to kMaxExtent
+  std::uint32_t height = 1024;        ///< pixels, 1 to kMaxExtent
+  Array<glm::vec3> positions;         ///< object space: the input's coordinates less `origin`
+  Array<glm::vec4> clip;              ///< clip space, given as they are (replay files, tests): no transform runs
+  Array<Triangle> triangles;          ///< triangle i has id i
+  std::vector<Stream> streams;        ///< data of the vertices, by unique names
+  Matrix clipFromObject = kIdentity;  ///< object space to clip space
   /// What loadInput() took from the input's coordinates before it rounded them; 0 for a scene near 0. A frame depends
   /// on positions and matrix alone.
   glm::dvec3 origin{0};
   std::vector<std::string> notes;  ///< one line each: what a user would not expect of the input
   bool unseen = false;  ///< the notes say why nothing can be seen of the whole scene or of one of its meshes
 
+  /// How many positions there are, of whichever space.
   std::size_t vertexCount() const { return positions.empty() ? clip.size() : positions.size(); }
   /// Null where the scene has no stream of that name.
   const Stream* stream(std::string_view name) const {

@@ -12,6 +12,7 @@
 
 namespace tessera {
 
+/// What a value may change.
 enum class AxisKind {
   kImage,           ///< changes what is right; the oracle takes it too
   kImplementation,  ///< may change no bit
@@ -24,9 +25,8 @@ struct Needs {
   bool int64 = false;        ///< 64-bit integers (DeviceInfo::int64)
   bool float64 = false;      ///< 64-bit floats (DeviceInfo::float64)
   bool atomicMin64 = false;  ///< 64-bit atomic min on buffers (DeviceInfo::atomicMin64)
-  bool cpu = false;          ///< the CPU device
-  bool vulkan = false;       ///< a Vulkan device
-  bool operator==(const Needs&) const = default;
+  /// A group of lanes is one thread, which loops over them: a lane that waits for another group's lane gets it.
+  bool oneThreadGroups = false;
 };
 
 /// What a commit asks of the host, and what it leaves behind.
@@ -44,22 +44,26 @@ struct CommitTraits {
 /// iterations <= perCell * across * across + perRow * across + fixed. A loop of n passes counts n + 1, with its last
 /// test.
 struct LoopBound {
-  std::uint64_t perCell = 0, perRow = 0, fixed = 0;
+  std::uint64_t perCell = 0;  ///< iterations for each cell
+  std::uint64_t perRow = 0;   ///< iterations for each row of cells
+  std::uint64_t fixed = 0;    ///< iterations for each entry
 };
 
+/// One value of an axis.
 struct AxisValue {
-  std::string name;
+  std::string name;     ///< as people type it
   std::string meaning;  ///< one line
   std::string slang;    ///< what the generated module says for the value; empty: the host alone reads it
-  AxisKind kind = AxisKind::kImplementation;
-  Needs needs = {};
+  AxisKind kind = AxisKind::kImplementation;  ///< what the value may change
+  Needs needs = {};         ///< of a device
   std::string source = {};  ///< paper or specification, where it is not the axis'
   std::string limits = {};  ///< bound of the error, largest scene: one line
   std::variant<std::monostate, CommitTraits, LoopBound> traits = {};  ///< of a value of `commit`, of `traversal`
 };
 
+/// One axis: what can be done in more than one way.
 struct Axis {
-  std::string name;
+  std::string name;                      ///< as people type it
   std::string meaning;                   ///< one line
   std::string source = {};               ///< paper or specification
   std::vector<std::string> stages = {};  ///< kernels that read it, by stage name; empty: the host reads it
@@ -67,35 +71,39 @@ struct Axis {
   std::string unset = {};                ///< what the plan chooses when it is not set, in words
   /// Whether its values are Slang types, which the module `variant` names; else constants, which go into `settings`.
   bool types = false;
-  long least = 0, most = 0;
+  long least = 0;  ///< the least value of an integer axis
+  long most = 0;   ///< the largest value of an integer axis
 
   AxisKind kind() const;  ///< implementation where any value is; its other values say so themselves
 };
 
 /// All axes, in pipeline order.
 const std::vector<Axis>& axes();
-/// Throws kUsage, naming the axes there are.
+/// The axis of that name. Throws kUsage, naming the axes there are.
 const Axis& axis(std::string_view name);
-/// Throws kUsage, naming the values there are. The axis has names for values.
+/// The value of that name. Throws kUsage, naming the values there are. The axis has names for values.
 const AxisValue& axisValue(std::string_view axis, std::string_view value);
-/// Of a value of the axis `commit`, and of a value of the axis `traversal`.
+/// The traits of a value of the axis `commit`.
 const CommitTraits& commitTraits(std::string_view commit);
+/// The loop bound of a value of the axis `traversal`.
 const LoopBound& loopBound(std::string_view traversal);
 
 /// Values that go only with some values of another axis.
 struct AxisRule {
-  std::string axis;
-  std::vector<std::string> values;  ///< empty: whatever it is set to
-  std::string other;
-  std::vector<std::string> only;
-  std::string why;  ///< one line
+  std::string axis;                 ///< the axis that the rule is about
+  std::vector<std::string> values;  ///< of that axis; empty: whatever it is set to
+  std::string other;                ///< the other axis
+  std::vector<std::string> only;    ///< values of the other axis that go with these
+  std::string why;                  ///< one line
 };
+/// All rules.
 const std::vector<AxisRule>& axisRules();
 
 /// Chosen values. An axis that is not set is the plan's choice; a set one is honoured or refused.
 class Variant {
  public:
-  Variant() = default;
+  Variant() = default;  ///< nothing is set
+  /// Sets pairs of axis and value. Throws as set() does.
   Variant(std::initializer_list<std::pair<std::string_view, std::string_view>> settings);
   /// "axis=value axis=value", with blanks between the settings, as text() has them and `--set` takes them; "" sets
   /// nothing. Throws kUsage for an unknown axis or value, naming those there are, for an axis without a value and for
@@ -103,14 +111,16 @@ class Variant {
   explicit Variant(std::string_view settings);
   /// Throws kUsage for an unknown axis or value, naming those there are.
   void set(std::string_view axis, std::string_view value);
-  bool has(std::string_view axis) const;
+  bool has(std::string_view axis) const;  ///< whether the axis is set
   /// The value, or `otherwise` where it is not set.
   std::string get(std::string_view axis, std::string_view otherwise = "") const;
   /// The value of an axis that is set, as a number. Throws kFailure where it is none.
   std::uint32_t number(std::string_view axis) const;
   /// Whether the axis is set to `value`, which has to be one of the axis' values: kUsage otherwise.
   bool is(std::string_view axis, std::string_view value) const;
+  /// Whether the axis is set to `on`.
   bool isOn(std::string_view axis) const { return is(axis, "on"); }
+  /// What is set: axis -> value.
   const std::map<std::string, std::string>& values() const { return values_; }
   std::string text() const;  ///< "axis=value axis=value" in axis order; "" when nothing is set
 
@@ -126,7 +136,8 @@ struct VariantModules {
   std::string
       settings;         ///< text of settings.slang: constants, and what the lowest modules are made of; imports nothing
   std::string variant;  ///< text of variant.slang: the chosen types, each a file that fulfils an interface
-  std::string text() const { return settings + variant; }
+  std::string text() const { return settings + variant; }  ///< the two texts, one after the other
+  /// Compares the texts.
   auto operator<=>(const VariantModules&) const = default;
 };
 /// Those of one stage: only the axes that the stage reads, so that its key holds no other. `resolved` has a value for

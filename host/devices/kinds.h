@@ -1,0 +1,11 @@
+// The built-in kinds of devices, which kinds.cpp lists.
+#pragma once
+
+#include <tessera/device-kind.h>
+
+namespace tessera {
+
+DeviceKind cpuKind();     ///< host/devices/cpu
+DeviceKind vulkanKind();  ///< host/devices/vulkan
+
+}  // namespace tessera
