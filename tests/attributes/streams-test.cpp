@@ -1,5 +1,6 @@
 // Named streams: of one to four floats, several at once, owned or borrowed, read in place and within their bounds.
 #include <sys/mman.h>
+#include <tessera/device-kind.h>
 #include <tessera/error.h>
 #include <tessera/image.h>
 #include <tessera/input.h>
@@ -11,7 +12,7 @@
 #include <fstream>
 
 #include "datasets/random.h"
-#include "host/support/temporary.h"
+#include "host/support/files.h"
 #include "tests/support/compare.h"
 #include "tests/support/cut-device.h"
 #include "tests/support/machines.h"
@@ -219,7 +220,10 @@ void shade(uint3 group: SV_GroupID, uint thread: SV_GroupIndex)
   Scene scene = loadInput("generate:icosphere?level=1", 64, 64);
   Stream& tint = scene.makeStream("tint", 3, false);
   for (std::size_t i = 0; i < 3 * scene.vertexCount(); ++i) tint.values.push_back(static_cast<float>(i));
-  KernelCache kernels({.folder = machine.kernels().folder(), .files = {{"shade", file}}});
+  KernelCache::Options options;
+  options.folder = machine.kernels().folder();
+  options.files = {{"shade", file}};
+  KernelCache kernels(options);
   Rasterizer rasterizer(machine.device(), kernels);
   const Variant variant{{"shade", "id"}, {"route", routeInfo(machine.route()).name}};
   const Framebuffer image = rasterizer.render(scene, variant).image;
