@@ -1,4 +1,6 @@
 // Named streams: of one to four floats, several at once, owned or borrowed, read in place and within their bounds.
+#include "tests/support/streams.h"
+
 #include <sys/mman.h>
 #include <tessera/device-kind.h>
 #include <tessera/error.h>
@@ -6,6 +8,7 @@
 #include <tessera/input.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cstring>
 #include <deque>
@@ -17,7 +20,6 @@
 #include "tests/support/cut-device.h"
 #include "tests/support/machines.h"
 #include "tests/support/random-scene.h"
-#include "tests/support/streams.h"
 #include "tests/support/variants.h"
 
 using namespace tessera;
@@ -83,7 +85,7 @@ PLACE_TEST_CASE("Streams of one to four floats have the oracle's bits, whole and
   }
   Scene scene = loadInput("generate:soup?count=4000&pixels=120", 300, 200);
   addStreams(scene, 5);
-  auto cut = makeCutDevice(openDevice(machine.info().api), 64 << 10);
+  auto cut = makeCutDevice(openDevice(machine.info().api), 200 << 10);
   Rasterizer rasterizer(*cut, machine.kernels());
   const Frame frame = rasterizer.render(scene);
   CHECK(frame.counters.at("batches") > 1);
@@ -123,8 +125,7 @@ PLACE_TEST_CASE("Nothing of a borrowed array is kept when render returns", "[att
   scene.triangles = first.triangles;
   scene.clip = Array<glm::vec4>::borrow(clip);
   const Frame before = machine.render(scene);
-  clip = reference::transform(second);  // at the same address
-  REQUIRE(scene.clip.data() == clip.data());
+  std::ranges::copy(reference::transform(second), clip.begin());  // at the same address
   scene.triangles = second.triangles;
   const Frame after = machine.render(scene);
   CHECK(difference(after, reference::render(scene)) == "");

@@ -77,7 +77,7 @@ TEST_CASE("Buffers and uniforms of Slang and HLSL that do not fit are named") {
 }
 
 TEST_CASE("What a compiler cannot read is named with its line") {
-  check("transform", "transform.comp", {{{{"precise vec4 c;", "precise vec5 c;"}}, {"transform.comp:84"}}});
+  check("transform", "transform.comp", {{{{"precise vec4 c;", "precise vec5 c;"}}, {"transform.comp:85"}}});
   check("shade", "by-depth.slang", {{{{"asfloat(depth", "asfloat(dpeth"}}, {"by-depth.slang:", "dpeth"}}});
   check("shade", "by-row.hlsl", {{{{"ids[pixel]", "idz[pixel]"}}, {"by-row.hlsl:", "idz"}}});
 }

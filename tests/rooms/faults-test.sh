@@ -22,7 +22,7 @@ broken() { # file, line that it gets, what the test has to say
   mv "$work/kept" "$work/$1"
 }
 broken host/support/files.h '#include <tessera/rasterizer.h>
-#include "host/frame/dispatcher.h"' 'support includes host/frame/passes.h of frame'
+#include "host/frame/dispatcher.h"' 'support includes host/frame/dispatcher.h of frame'
 broken host/include/tessera/error.h '#include <tessera/scene.h>
 #include <nlohmann/json.hpp>' 'host/include/tessera/error.h: a public header, and includes nlohmann'
 broken host/include/tessera/framebuffer.h '#include <tessera/rasterizer.h>' 'a circle of includes: '

@@ -18,33 +18,37 @@ class Array {
   static_assert(std::is_trivially_copyable_v<T>);
 
  public:
-  using value_type = T;
-  using const_iterator = const T*;
+  using value_type = T;             ///< of an element
+  using const_iterator = const T*;  ///< of begin() and end()
 
-  Array() = default;
+  Array() = default;  ///< empty
+  /// Owns these elements.
   Array(std::vector<T> values) : owned_(std::move(values)) {}
+  /// Owns these elements.
   Array(std::initializer_list<T> values) : owned_(values) {}
 
   /// Reads `count` elements at `values` in place.
   static Array borrow(const T* values, std::size_t count) { return borrow(std::span<const T>(values, count)); }
+  /// Reads these elements in place.
   static Array borrow(std::span<const T> values) {
     Array array;
     array.borrowed_ = values;
     array.borrows_ = true;
     return array;
   }
+  /// Whether the elements are the program's.
   bool isBorrowed() const { return borrows_; }
 
-  std::size_t size() const { return borrows_ ? borrowed_.size() : owned_.size(); }
-  bool empty() const { return size() == 0; }
-  const T* data() const { return borrows_ ? borrowed_.data() : owned_.data(); }
-  const T* begin() const { return data(); }
-  const T* end() const { return data() + size(); }
-  const T& operator[](std::size_t i) const { return data()[i]; }
-  const T& front() const { return data()[0]; }
-  const T& back() const { return data()[size() - 1]; }
-  operator std::span<const T>() const { return {data(), size()}; }
-  std::span<const T> span() const { return *this; }
+  std::size_t size() const { return borrows_ ? borrowed_.size() : owned_.size(); }  ///< number of elements
+  bool empty() const { return size() == 0; }                                        ///< whether there is no element
+  const T* data() const { return borrows_ ? borrowed_.data() : owned_.data(); }     ///< the first element
+  const T* begin() const { return data(); }                                         ///< the first element
+  const T* end() const { return data() + size(); }                                  ///< one past the last element
+  const T& operator[](std::size_t i) const { return data()[i]; }                    ///< element i, i < size()
+  const T& front() const { return data()[0]; }                                      ///< of an array that is not empty
+  const T& back() const { return data()[size() - 1]; }                              ///< of an array that is not empty
+  operator std::span<const T>() const { return {data(), size()}; }                  ///< all elements
+  std::span<const T> span() const { return *this; }                                 ///< all elements
 
   /// The elements to change.
   std::vector<T>& own() {
@@ -55,18 +59,19 @@ class Array {
     }
     return owned_;
   }
-  T& operator[](std::size_t i) { return own()[i]; }
-  T* begin() { return own().data(); }
-  T* end() { return own().data() + own().size(); }
-  void push_back(const T& value) { own().push_back(value); }
+  T& operator[](std::size_t i) { return own()[i]; }           ///< element i to change, i < size()
+  T* begin() { return own().data(); }                         ///< the first element, to change
+  T* end() { return own().data() + own().size(); }            ///< one past the last element
+  void push_back(const T& value) { own().push_back(value); }  ///< adds an element at the end
+  /// Makes an element of these arguments at the end.
   template <typename... Arguments>
   void emplace_back(Arguments&&... arguments) {
     own().emplace_back(std::forward<Arguments>(arguments)...);
   }
-  void assign(std::size_t count, const T& value) { own().assign(count, value); }
-  void reserve(std::size_t count) { own().reserve(count); }
-  void resize(std::size_t count) { own().resize(count); }
-  void clear() { *this = Array(); }
+  void assign(std::size_t count, const T& value) { own().assign(count, value); }  ///< so many elements of one value
+  void reserve(std::size_t count) { own().reserve(count); }                       ///< makes room for so many elements
+  void resize(std::size_t count) { own().resize(count); }                         ///< adds zeros, or drops elements
+  void clear() { *this = Array(); }                                               ///< drops all elements
 
   /// Element by element, wherever the elements lie.
   friend bool operator==(const Array& a, const Array& b) {

@@ -21,7 +21,7 @@ struct CounterDoc {
   std::string meaning;  ///< one line
   bool inKernels;       ///< counted by kernels; else by the host
   bool work = false;    ///< only under counters=work
-  CounterMerge merge = CounterMerge::kSum;
+  CounterMerge merge = CounterMerge::kSum;  ///< over the parts of a frame
 };
 
 /// All counters, in pipeline order: first the kernels' counters, whose index is their index in the counter buffer, then

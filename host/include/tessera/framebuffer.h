@@ -22,25 +22,28 @@ struct ValueRange {
   float most = 1;   ///< in the attribute's unit, not equal to `least`
 };
 
+/// What a value of a channel is.
 enum class ChannelType { kFloat32, kUint32 };
 
 /// A named raster with 1 to 4 values a pixel: of a stream of the scene, or of a stage that makes one.
 struct Channel {
-  std::string name;
+  std::string name;                                                   ///< unique in its frame
   unsigned components = 1;                                            ///< values a pixel
   std::variant<std::vector<float>, std::vector<std::uint32_t>> data;  ///< components * pixels() of them
 
+  /// What the values are.
   ChannelType type() const { return data.index() == 0 ? ChannelType::kFloat32 : ChannelType::kUint32; }
-  /// Of a float32 channel.
+  /// The values of a float32 channel.
   const std::vector<float>& floats() const { return std::get<0>(data); }
+  /// The same, to change.
   std::vector<float>& floats() { return std::get<0>(data); }
 };
 
 /// One raster of a framebuffer, whichever member holds it.
 struct ChannelView {
-  std::string_view name;
-  ChannelType type;
-  unsigned components;
+  std::string_view name;             ///< the channel's, or the member's
+  ChannelType type;                  ///< of each value
+  unsigned components;               ///< values a pixel
   std::span<const std::byte> bytes;  ///< 4 * components * pixels
 };
 
