@@ -1,4 +1,5 @@
-// How a frame is cut where a device is too small for it: the raster into bands, the triangles into batches.
+// How a frame is cut where the device is too small for the whole frame: the raster into bands, the triangles into
+// batches.
 #pragma once
 
 #include <tessera/device.h>
@@ -13,13 +14,13 @@
 
 namespace tessera {
 
-/// Rows [begin, end) of the raster. A band begins on a row of blocks, and so of cells and of tiles.
+/// Rows [begin, end) of the raster. A band begins on a row of blocks, and so on a row of cells and on a row of tiles.
 struct Band {
   std::uint32_t begin, end;
 };
 
-/// Bands whose buffers of pixels fit the device, and whose blocks a lane of setup can walk within the device's limit on
-/// loops. The dispatcher has the plan's kernels.
+/// Cuts the raster into bands. The pixel buffers of each band fit the device, and a lane of setup can walk the blocks
+/// of a band within the device's limit on loops. The dispatcher has to have the plan's kernels.
 std::vector<Band> cutBands(const Scene& scene, const Settings& settings, const Dispatcher& dispatcher);
 
 /// Triangles [first, first + count) of the scene.
@@ -28,10 +29,10 @@ struct Batch {
   bool operator==(const Batch&) const = default;
 };
 
-/// Each batch in two. Throws kUnsupported where a batch is one triangle.
+/// Cuts each batch into two. Throws kUnsupported where a batch has one triangle only.
 std::vector<Batch> halved(const std::vector<Batch>& batches, const DeviceInfo& device);
 
-/// Iterations that a lane has left beside `fixed` ones.
+/// How many iterations of loops the device lets a lane run beyond `fixed` iterations.
 std::uint64_t loopsBeyond(std::uint64_t fixed, const DeviceInfo& device);
 
 }  // namespace tessera

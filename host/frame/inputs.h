@@ -1,4 +1,4 @@
-// What a scene gives the kernels: its arrays, and the uniforms that are the same in all of a frame.
+// What a scene gives the kernels: its arrays, and the uniforms that stay the same during a frame.
 #pragma once
 
 #include <tessera/scene.h>
@@ -7,7 +7,7 @@
 
 namespace tessera {
 
-/// Throws kUnsupported where the vertices do not fit the device's largest buffer.
+/// Gives the scene to the kernels. Throws kUnsupported where the vertices do not fit the device's largest buffer.
 void giveScene(Dispatcher& dispatcher, const Scene& scene);
 
 /// The name of the buffer that holds a stream.

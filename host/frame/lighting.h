@@ -1,4 +1,4 @@
-// Where the light and the eye are for a matrix to clip space: what shading needs beyond the scene.
+// The places of the light and of the eye, from the matrix to clip space. Shading needs them beside the scene.
 #pragma once
 
 #include <tessera/scene.h>
@@ -7,12 +7,13 @@
 
 namespace tessera {
 
+/// Light and eye.
 struct Lighting {
-  std::array<float, 3> light;  ///< unit vector towards the light, object space
-  std::array<float, 4> eye;    ///< homogeneous, object space; w is 1, or 0 where the projection is parallel
+  std::array<float, 3> light;  ///< unit vector towards the light, in object space
+  std::array<float, 4> eye;    ///< homogeneous, in object space; w is 1, or 0 where the projection is parallel
 };
 
-/// The light comes from the viewer's side, from above and a little from the left.
+/// Light and eye for a matrix. The light comes from the viewer's side, from above and a little from the left.
 Lighting lightingOf(const Matrix& clipFromObject);
 
 }  // namespace tessera

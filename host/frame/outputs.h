@@ -1,4 +1,4 @@
-// What comes back from the device: the channels of the framebuffer, and what stages wrote.
+// What the host reads from the device: the channels of the framebuffer, and what the stages wrote.
 #pragma once
 
 #include <tessera/rasterizer.h>

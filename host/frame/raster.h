@@ -1,4 +1,4 @@
-// The raster of a batch: every tile goes through its bin, or every lane takes a work item.
+// The raster of a batch. Either every tile goes through its bin, or every lane takes a work item.
 #pragma once
 
 #include "host/frame/bins/bins.h"
@@ -6,8 +6,8 @@
 
 namespace tessera {
 
-/// `first`: nothing of the band has been rastered before. Tiles go through as many entries in one dispatch as the
-/// device's limit on loops lets a lane.
+/// Rasters a batch. `first` says that nothing of the band has been rastered before. In one dispatch a tile goes through
+/// as many entries as a lane can within the device's limit on loops.
 void raster(Dispatcher& dispatcher, const Settings& settings, const Bins& bins, bool first);
 
 }  // namespace tessera

@@ -1,4 +1,5 @@
-// The stage `setup`: triangles of a batch to pieces and items, with as much room as they turn out to need.
+// The stage `setup`, which turns the triangles of a batch into pieces and items. The host gives as much room as the
+// pieces and items turn out to need.
 #pragma once
 
 #include "host/frame/dispatcher.h"
@@ -6,8 +7,9 @@
 
 namespace tessera {
 
-/// Runs setup, again with more room where pieces or items did not fit, and sets `slotCount` and `itemCount`. False
-/// where a buffer would be larger than the device's largest: the triangles are cut into smaller batches then.
+/// Runs setup, and runs it again with more room where pieces or items did not fit. Sets `slotCount` and `itemCount`.
+/// Returns false where a buffer would be larger than the device's largest buffer. The caller then cuts the triangles
+/// into smaller batches.
 bool setUp(Dispatcher& dispatcher, const Settings& settings, Tally& tally);
 
 }  // namespace tessera

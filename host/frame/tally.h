@@ -1,4 +1,4 @@
-// What a frame counts and how long its stages take, over retries, batches and bands.
+// What a frame counts, and how long its stages take, over all retries, batches and bands.
 #pragma once
 
 #include <tessera/counters.h>
@@ -13,37 +13,40 @@
 
 namespace tessera {
 
-/// The kernels' counters as they stand in the buffer `counters`.
+/// The kernels' counters, as the buffer `counters` holds them.
 class KernelCounters {
  public:
   explicit KernelCounters(Dispatcher& dispatcher);
   std::uint64_t operator[](std::string_view name) const;
 
  private:
-  std::vector<std::uint32_t> words_;  // two a counter, the low one first
+  std::vector<std::uint32_t> words_;  // two words for each counter, the low word first
 };
 
+/// The counters and times of one frame.
 class Tally {
  public:
   Tally();
 
-  /// Forgets what the band has counted: the band starts, or starts again with smaller batches.
+  /// Forgets what the band has counted, since the band starts, or starts again with smaller batches.
   void beginBand() { band_.clear(); }
-  /// Adds to what the band has counted, or raises it, as the list of counters says.
+  /// Adds `value` to the band's count, or raises the band's count to `value`, as the list of counters says.
   void count(std::string_view name, std::uint64_t value);
-  /// Takes over what the kernels counted; `all`: else the counters of the raster's work alone. Setup and bins run again
-  /// for the second pass of several batches, and count once.
+  /// Takes over what the kernels counted: all counters if `all` is set, otherwise the counters of the raster's work
+  /// alone. Where several batches have a second pass, setup and bins run twice and count once.
   void take(const KernelCounters& kernels, bool all);
-  /// `first`: what belongs to a triangle, whatever the band, counts in the first band alone.
+  /// Adds the band's counts to the frame's. `first` says that the band is the first one. The counts of triangles, which
+  /// are the same in every band, are added for the first band alone.
   void endBand(bool first);
+  /// Does for `into` what count() does for the band.
   void count(std::string_view name, std::uint64_t value, Counters& into) const;
 
-  /// Times of dispatches, in their order.
+  /// Adds the times of dispatches, in the order of the dispatches, to the times of their stages.
   void addTimes(const std::vector<StageTime>& times);
-  /// From the first of these dispatches to the last: what a frame takes.
+  /// Adds the time from the begin of the first of these dispatches to the end of the last one to the frame's time.
   void addTotal(const std::vector<StageTime>& times);
 
-  Counters counters;  ///< of the frame
+  Counters counters;  ///< the frame's counters
   FrameTimes times;
 
  private:

@@ -1,4 +1,4 @@
-// What the plan asks of a binning. The host half of each binning answers it (host/frame/bins).
+// What the plan asks of a binning. The host half of each binning (host/frame/bins) has the answers.
 #pragma once
 
 #include <tessera/device.h>
@@ -16,27 +16,29 @@ namespace tessera {
 
 /// The frame that bins are planned for.
 struct BinsLoad {
-  double tiles;      ///< of the whole raster
-  double triangles;  ///< of the scene
+  double tiles;      ///< tiles of the whole raster
+  double triangles;  ///< triangles of the scene
 };
 
+/// What one binning answers to the plan.
 class BinsPlan {
  public:
   virtual ~BinsPlan() = default;
-  /// Throws kUsage where the bins of this many tiles and triangles would take too long or too much memory, and
-  /// kUnsupported where they would not fit the device. A message says what would do.
+  /// Throws kUsage where bins for this load would take too long or too much memory, and kUnsupported where the bins
+  /// would not fit the device. The message says what would work.
   virtual void check(const BinsLoad&, const DeviceInfo&) const {}
-  /// The stages that build the bins, retries among them.
+  /// The stages that build the bins, with the stages of retries.
   virtual std::vector<std::string> stages(const Settings&) const { return {}; }
-  /// Whether the raster goes by tiles, a group a tile; else by work items, a lane a work item.
+  /// Whether the raster goes by tiles, with a group for each tile. Otherwise the raster goes by work items, with a lane
+  /// for each work item.
   virtual bool byTiles() const { return true; }
-  /// Why nothing is counted before pieces go to their bins; for a binning that does not count.
+  /// The reason why nothing is counted before pieces go to their bins, for a binning that does not count.
   virtual std::string whyUncounted(const Settings& settings) const {
     return "no lists of pieces (binning=" + settings.binning + ")";
   }
 };
 
-/// The binning of that name. Throws kFailure where there is none.
+/// Gives the binning of a name. Throws kFailure where no binning has the name.
 using BinsOf = std::function<std::unique_ptr<BinsPlan>(std::string_view binning)>;
 
 }  // namespace tessera

@@ -1,5 +1,5 @@
-// The list of the pipeline's buffers: a kernel binds a buffer by its name here, or a stream of the scene by the
-// stream's.
+// The list of the pipeline's buffers. A kernel binds a buffer by the buffer's name in this list, and a stream of the
+// scene by the stream's name.
 #pragma once
 
 #include <tessera/framebuffer.h>
@@ -14,28 +14,31 @@
 
 namespace tessera {
 
-/// What a frame gets of a buffer that is read back.
+/// The channel that a frame gets from a buffer that is read back.
 struct ChannelDoc {
   ChannelType type;
-  unsigned components;  ///< 0: as many as the stream in hand has
+  unsigned components;  ///< values for each pixel; 0: as many as the current stream has
   std::string element;  ///< what one pixel of the buffer holds, in words
-  std::string empty;    ///< what it holds where no triangle is
+  std::string empty;    ///< what a pixel holds where no triangle is, in words
 };
 
+/// One buffer of the pipeline.
 struct BufferDoc {
-  std::string name;     ///< as kernels call it
-  std::uint32_t bytes;  ///< of one element of `extent`
-  Extent extent;
+  std::string name;     ///< the name in kernels
+  std::uint32_t bytes;  ///< size of one element
+  Extent extent;        ///< how many elements the buffer has
   std::optional<ChannelDoc> channel =
-      {};  ///< the frame's channel of the buffer's name; nothing: it stays on the device
+      {};  ///< the frame's channel of the buffer's name; nothing where the buffer stays on the device
 };
 
+/// All buffers of the pipeline.
 const std::vector<BufferDoc>& buffers();
-/// Nothing where no buffer has the name.
+/// The buffer `name`. Null where no buffer has the name.
 const BufferDoc* findBuffer(std::string_view name);
-/// Throws kFailure with the name where no buffer has it.
+/// The buffer `name`. Throws kFailure with the name where no buffer has it.
 const BufferDoc& bufferDoc(std::string_view name);
-/// Whether the buffer has elements for the pixels of a band, so that the height of a band decides its size.
+/// Whether the buffer has elements for the pixels of a band. The height of the band then decides the size of the
+/// buffer.
 bool isOfPixels(const BufferDoc& buffer);
 
 }  // namespace tessera

@@ -1,4 +1,5 @@
-// A value for each axis: the one asked for, or the first that goes with the others and with the device.
+// Chooses a value for each axis: the value that the user asked for, or else the first value that goes with the other
+// axes' values and with the device.
 #pragma once
 
 #include <tessera/device.h>
@@ -11,20 +12,24 @@
 
 namespace tessera {
 
-/// What of the value's needs the device lacks, in words; nothing if it has them all.
+/// What the value needs and the device lacks, in words. Nothing where the device has all that the value needs.
 std::optional<std::string> missingNeed(const AxisValue& value, const DeviceInfo& device);
 
-/// A resolved variant without what says nothing beside the rest, such as a capacity where there are no queues, and what
-/// is therefore refused when it is set. With what is left set, the plan is the same.
+/// A resolved variant without the settings that mean nothing beside the others, such as a capacity where there are no
+/// queues. Such a setting is refused where a user sets it. Where a user sets all settings that are left, the plan is
+/// the same.
 Variant settable(const Variant& resolved);
 
+/// The choice of values for one plan, axis by axis.
 class Choice {
  public:
   Choice(const Variant& asked, const DeviceInfo& device) : asked_(asked), device_(device) {}
 
-  /// The value asked for, or else the first of `preferred` that the device can do and that goes with what was asked for
-  /// and taken. Throws kUnsupported or kUsage where the one asked for does not: axis, value, reason, what would do.
+  /// Takes the value that the user asked for, or else the first of `preferred` that the device can do and that goes
+  /// with all values that were asked for or taken. Throws kUnsupported or kUsage where the value that the user asked
+  /// for does not fit; the message says axis, value, reason, and what would work.
   std::string take(std::string_view axis, const std::vector<std::string>& preferred);
+  /// The values that were taken.
   const Variant& resolved() const { return taken_; }
 
  private:

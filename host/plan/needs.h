@@ -1,4 +1,4 @@
-// Why a plan runs each stage or leaves it out: a function a stage, in pipeline order.
+// Why a plan runs a stage or leaves the stage out: one function for each stage, in pipeline order.
 #pragma once
 
 #include "host/plan/stages.h"

@@ -1,4 +1,4 @@
-// makePlan() of <tessera/plan.h>, for any set of binnings.
+// makePlan() of <tessera/plan.h>, but for any set of binnings.
 #pragma once
 
 #include <tessera/plan.h>
@@ -7,6 +7,7 @@
 
 namespace tessera {
 
+/// Plans as makePlan() does, with binnings from `binsOf`. Throws as makePlan() does.
 Plan planFrame(const Scene& scene, const Variant& variant, const DeviceInfo& device, const BinsOf& binsOf);
 
 }  // namespace tessera

@@ -1,4 +1,4 @@
-// A resolved variant as the host reads it: a typed value for each axis that decides what the host does.
+// A resolved variant as the host reads it: a typed value for each axis on which the host's work depends.
 #pragma once
 
 #include <tessera/variant.h>
@@ -8,22 +8,22 @@
 
 namespace tessera {
 
-inline constexpr std::uint32_t kBlock = 64;  ///< pixels; slang's blocks, and the tiles of a frame that has no bins
+inline constexpr std::uint32_t kBlock = 64;  ///< edge in pixels of slang's blocks, and of tiles where there are no bins
 
 enum class Overflow { kRetry, kError, kDrop };
 
 struct Settings {
   std::string binning;
-  std::uint32_t tile = kBlock;  ///< pixels
-  std::uint32_t capacity = 0;   ///< entries that a queue starts with
+  std::uint32_t tile = kBlock;  ///< edge of a tile, in pixels
+  std::uint32_t capacity = 0;   ///< entries that a queue has room for at the start
   Overflow overflow = Overflow::kRetry;
   bool clip = true, perspective = true, betweenSamples = true, compact = false;
   CommitTraits commit;
-  LoopBound loops;  ///< of the traversal
+  LoopBound loops;  ///< the loop bound of the traversal
   std::string cull, shade;
 };
 
-/// `resolved` has a value for every axis.
+/// The settings of a resolved variant, which has a value for every axis.
 Settings settingsOf(const Variant& resolved);
 
 }  // namespace tessera

@@ -1,5 +1,5 @@
-// THE list of stages: when each one runs, over what, and why a plan keeps it or leaves it out. The plan, the kernels to
-// compile, the frame and the command line derive from it.
+// THE list of stages: when a stage runs, over what, and why a plan keeps the stage or leaves it out. The plan, the
+// kernels to compile, the frame and the command line derive from this list.
 #pragma once
 
 #include <tessera/kernel-cache.h>
@@ -15,63 +15,68 @@
 
 namespace tessera {
 
-/// What decides which stages a plan runs. Everything in it is chosen before the first stage is looked at.
+/// The facts that decide which stages a plan runs. All of them are known before the plan looks at the first stage.
 struct PlanFacts {
   const Scene& scene;
   const Settings& settings;
-  bool full;                           ///< plan=full
-  bool crosses;                        ///< a triangle may cross a clip plane
-  bool orthographic;                   ///< w is 1 at every vertex
-  bool byTiles;                        ///< see BinsPlan
-  std::vector<std::string> binStages;  ///< see BinsPlan
-  std::string whyUncounted;            ///< see BinsPlan
+  bool full;                           ///< whether plan=full is set
+  bool crosses;                        ///< whether a triangle may cross a clip plane
+  bool orthographic;                   ///< whether w is 1 at every vertex
+  bool byTiles;                        ///< see BinsPlan::byTiles()
+  std::vector<std::string> binStages;  ///< see BinsPlan::stages()
+  std::string whyUncounted;            ///< see BinsPlan::whyUncounted()
 };
 
-/// The moments of a frame, in their order. At each of them the frame runs the plan's stages of the moment, as they
-/// stand in the list; stages of kDriven are dispatched by the host's part for them: host/frame/setup, bins and raster.
+/// The moments of a frame, in their order. At each moment the frame runs the plan's stages of this moment, in the order
+/// of the list. The stages of kDriven are different: the host's part for them (host/frame/setup, bins and raster)
+/// dispatches them.
 enum class Moment {
   kBand,     ///< before the first batch of a band
   kBatch,    ///< after setup of a batch, before its bins
   kDriven,   ///< setup, bins and raster of a batch
   kRaster,   ///< after the raster of the band's last batch
-  kVisible,  ///< with the finished visibility buffer, once for each batch
-  kStreams,  ///< the same, and once for each stream that is interpolated
+  kVisible,  ///< after the visibility buffer is finished, once for each batch
+  kStreams,  ///< after kVisible, once for each batch and each stream that is interpolated
 };
 
-/// Whether a plan runs a stage, and what it says about it: an entry for the stage, and one for each switch in it.
+/// Whether a plan runs a stage, and what the plan says about the stage: an entry for the stage, and an entry for each
+/// switch in the stage.
 struct Need {
   bool runs;
   std::vector<PlanEntry> entries;
 };
 
+/// One stage of the pipeline.
 struct Stage {
-  std::string name;    ///< as in Axis::stages, in plans, times and messages
-  std::string source;  ///< under slang/
-  std::string entry;   ///< entry point
-  Moment moment;
-  Extent over;  ///< what there is a lane for, or a group
-  bool groups;  ///< whether there is a group for each; else a lane
-  Need (*need)(const PlanFacts& facts);
+  std::string name;                      ///< the name in Axis::stages, plans, times and messages
+  std::string source;                    ///< path of the kernel's file, under slang/
+  std::string entry;                     ///< the kernel's entry point
+  Moment moment;                         ///< when the stage runs
+  Extent over;                           ///< what the stage runs over
+  bool groups;                           ///< whether each element of `over` has a group; otherwise it has a lane
+  Need (*need)(const PlanFacts& facts);  ///< whether a plan runs the stage
 };
 
 /// All stages, in pipeline order.
 const std::vector<Stage>& stages();
-/// Throws kFailure with the name where no stage has it.
+/// The stage `name`. Throws kFailure with the name where no stage has it.
 const Stage& stageOf(std::string_view name);
-/// Whether the stage comes after the visibility buffer: a frame's time is without it.
+/// Whether the stage comes after the visibility buffer. The time of a frame does not include such a stage.
 bool isBehindVisibility(std::string_view stage);
-/// Number of groups of a dispatch as a formula over fields of its uniform block, e.g. "ceil(vertexCount / 64)".
+/// The number of groups of a dispatch as a formula over fields of its uniform block, e.g. "ceil(vertexCount / 64)".
 std::string groupFormula(const Stage& stage);
+/// The number of groups of a dispatch while the uniforms have these values.
 std::uint64_t groupsOf(const Stage& stage, const UniformValue& uniform);
 
-/// Throws kUsage for a file of a stage that the plan does not dispatch.
+/// Throws kUsage where a file is for a stage that the plan does not dispatch.
 void checkStages(const Plan& plan, const KernelFiles& files);
-/// What to compile for one stage of a plan: its own kernel.
+/// The request to compile one stage's own kernel for a plan.
 KernelRequest kernelRequest(std::string_view stage, const Plan& plan);
-/// The same for all of Plan::stages, a user's files in place of their stages' own kernels. Throws as
-/// checkStages() and requestOf() of user-kernel.h do.
+/// The requests for all of Plan::stages. A user's file takes the place of its stage's own kernel. Throws as
+/// checkStages() does, and as requestOf() of user-kernel.h does.
 std::vector<KernelRequest> kernelRequests(const Plan& plan, const KernelFiles& files);
-/// Compiles them, with the cache's files, and checks that the host can bind what the user brought.
+/// Compiles the kernels of all of Plan::stages, with the cache's files, and checks that the host can bind the user's
+/// kernels.
 std::vector<CompiledKernel> compileStages(KernelCache& cache, const Plan& plan);
 
 }  // namespace tessera

@@ -1,5 +1,6 @@
-// The host half of a binning: what it asks of a plan, and how it fills the bins of a batch. A value of the axis
-// `binning` is a line in the list of axes, a Slang file, a file here, and that file's line in list.cpp.
+// The host half of a binning: what the binning asks of a plan, and how it fills the bins of a batch. A value of the
+// axis `binning` is a line in the list of axes, a Slang file, a C++ file in this folder, and a line for the C++ file in
+// list.cpp.
 #pragma once
 
 #include <tessera/device.h>
@@ -15,29 +16,32 @@
 
 namespace tessera {
 
-/// What bins are built with.
+/// What a binning builds its bins with.
 struct BinsWork {
   Dispatcher& dispatcher;
   Tally& tally;
   const Settings& settings;
 };
 
+/// The bins of one batch.
 class Bins : public BinsPlan {
  public:
-  /// Builds the bins of the batch whose pieces setup has made. False where a buffer would be larger than the device's
-  /// largest: the triangles are cut into smaller batches then. Throws kOverflow under overflow=error.
+  /// Builds the bins of the batch whose pieces setup has made. Returns false where a buffer would be larger than the
+  /// device's largest buffer. The caller then cuts the triangles into smaller batches. Throws kOverflow under
+  /// overflow=error.
   virtual bool build(BinsWork& work) = 0;
-  /// Entries of the fullest tile, or a bound on them, once the bins are built: the raster goes through so many.
+  /// The number of entries of the fullest tile, or an upper bound, once the bins are built. The raster goes through
+  /// this number of entries.
   virtual std::uint64_t largest() const = 0;
-  /// What the raster's ranges of entries are multiples of.
+  /// The length of the raster's ranges of entries is a multiple of this number.
   virtual std::uint64_t rangeStep() const { return 1; }
-  /// Counts what the bins hold, where they hold lists.
+  /// Counts the entries that the bins hold, where the bins are lists.
   virtual void countEntries(BinsWork&) {}
-  /// Whether tiles have lists of pieces, whose lengths are in `tileCounts`.
+  /// Whether tiles have lists of pieces. The buffer `tileCounts` holds the lengths of such lists.
   virtual bool listed() const { return false; }
 };
 
-/// The binning of that name. Throws kFailure where none has it.
+/// Makes the binning of a name. Throws kFailure where no binning has the name.
 std::unique_ptr<Bins> makeBins(std::string_view binning);
 
 }  // namespace tessera

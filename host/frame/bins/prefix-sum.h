@@ -1,11 +1,15 @@
-// The prefix sum over the counts of tiles, level by level.
+// The prefix sum over the counts of the tiles, level by level.
 #pragma once
 
 #include "host/frame/dispatcher.h"
 
 namespace tessera {
 
-/// offsets[t] = tileCounts[0] + ... + tileCounts[t - 1] for each tile t, and the sum of all behind the last.
+/// Computes for each tile t
+///
+///     offsets[t] = tileCounts[0] + ... + tileCounts[t - 1]
+///
+/// and puts the sum of all counts behind the offset of the last tile.
 void sumTileCounts(Dispatcher& dispatcher);
 
 }  // namespace tessera

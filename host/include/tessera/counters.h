@@ -1,4 +1,4 @@
-// The events that a frame counts: one list for the kernels, the host, the rows and the docs.
+// The events that a frame counts. The kernels, the host, the rows and the docs share one list.
 #pragma once
 
 #include <cstddef>
@@ -8,31 +8,31 @@
 
 namespace tessera {
 
-/// How the counts of the parts that a frame was cut into become one count.
+/// How the counts of a frame's parts (bands and batches) become one count.
 enum class CounterMerge {
-  kSum,      ///< their sum
-  kLargest,  ///< the largest of them
-  kOnce,     ///< a sum over the batches of the first band: each band has all triangles
+  kSum,      ///< the sum of the parts' counts
+  kLargest,  ///< the largest of the parts' counts
+  kOnce,     ///< the sum over the batches of the first band, since each band has all triangles
 };
 
 /// One counter of a frame: its name and what it counts.
 struct CounterDoc {
-  std::string name;     ///< lowerCamelCase; kernels know it as kCount + UpperCamelCase
-  std::string meaning;  ///< one line
-  bool inKernels;       ///< counted by kernels; else by the host
-  bool work = false;    ///< only under counters=work
-  CounterMerge merge = CounterMerge::kSum;  ///< over the parts of a frame
+  std::string name;                         ///< lowerCamelCase; kernels know it as kCount + UpperCamelCase
+  std::string meaning;                      ///< what the counter counts, in one line
+  bool inKernels;                           ///< whether kernels count it; otherwise the host does
+  bool work = false;                        ///< whether it is counted under counters=work only
+  CounterMerge merge = CounterMerge::kSum;  ///< how the counts of a frame's parts become one
 };
 
-/// All counters, in pipeline order: first the kernels' counters, whose index is their index in the counter buffer, then
-/// the host's counters.
+/// All counters, in pipeline order. The kernels' counters come first; the index of each is also its index in the
+/// counter buffer. The host's counters follow.
 const std::vector<CounterDoc>& counterDocs();
-/// The counter of that name. Throws kFailure with the name where nothing counts it.
+/// The counter `name`. Throws kFailure with the name where no counter has this name.
 const CounterDoc& counterDoc(std::string_view name);
-/// How many counters the kernels count.
+/// The number of counters that the kernels count.
 std::size_t kernelCounterCount();
-/// Index of a counter of the kernels in counterDocs(), by its name. Throws kFailure with the name where no kernel counts
-/// it.
+/// The index in counterDocs() of the kernels' counter `name`. Throws kFailure with the name where the kernels have no
+/// such counter.
 std::size_t counterIndex(std::string_view name);
 
 }  // namespace tessera

@@ -1,4 +1,4 @@
-// The visibility buffer and what is resolved from it, on the host.
+// The visibility buffer, and what is resolved from the visibility buffer, on the host.
 #pragma once
 
 #include <cstddef>
@@ -13,61 +13,63 @@
 namespace tessera {
 
 inline constexpr std::uint32_t kUnknownTriangle =
-    0xfffffffeu;  ///< covered, by a commit that keeps no ids (depth32+rgba8, depth24+lum8)
+    0xfffffffeu;  ///< id of a covered pixel under a commit that keeps no ids (depth32+rgba8, depth24+lum8)
 inline constexpr std::uint32_t kNoTriangle = 0xffffffffu;  ///< id of an empty pixel; its depth is 1.0
 
-/// Of an attribute: what a picture's colours span, and what errors are relative to.
+/// The range of an attribute: a picture's colours span the range, and errors are relative to the range.
 struct ValueRange {
   float least = 0;  ///< in the attribute's unit
   float most = 1;   ///< in the attribute's unit, not equal to `least`
 };
 
-/// What a value of a channel is.
+/// The type of a channel's values, each of which has 32 bits.
 enum class ChannelType { kFloat32, kUint32 };
 
-/// A named raster with 1 to 4 values a pixel: of a stream of the scene, or of a stage that makes one.
+/// A named raster with 1 to 4 values for each pixel. A channel comes from a stream of the scene, or from a stage that
+/// makes a channel.
 struct Channel {
-  std::string name;                                                   ///< unique in its frame
-  unsigned components = 1;                                            ///< values a pixel
-  std::variant<std::vector<float>, std::vector<std::uint32_t>> data;  ///< components * pixels() of them
+  std::string name;         ///< the name of the stream, or of the buffer that a stage writes
+  unsigned components = 1;  ///< values for each pixel
+  std::variant<std::vector<float>, std::vector<std::uint32_t>> data;  ///< components * Framebuffer::pixels() values
 
-  /// What the values are.
+  /// The type of the values.
   ChannelType type() const { return data.index() == 0 ? ChannelType::kFloat32 : ChannelType::kUint32; }
   /// The values of a float32 channel.
   const std::vector<float>& floats() const { return std::get<0>(data); }
-  /// The same, to change.
+  /// The values of a float32 channel, to be changed.
   std::vector<float>& floats() { return std::get<0>(data); }
 };
 
-/// One raster of a framebuffer, whichever member holds it.
+/// One raster of a framebuffer, whichever member of the framebuffer holds the raster.
 struct ChannelView {
-  std::string_view name;             ///< the channel's, or the member's
-  ChannelType type;                  ///< of each value
-  unsigned components;               ///< values a pixel
-  std::span<const std::byte> bytes;  ///< 4 * components * pixels
+  std::string_view name;             ///< `depth`, `ids`, `hits`, `colour`, or Channel::name
+  ChannelType type;                  ///< the type of the values
+  unsigned components;               ///< values for each pixel
+  std::span<const std::byte> bytes;  ///< 4 * components * pixels bytes
 };
 
-/// An image on the host. Row-major, row 0 at the top, width * height elements in each vector that is not empty.
+/// An image on the host. Each vector that is not empty has width * height elements, row-major, with row 0 at the top.
 struct Framebuffer {
   std::uint32_t width = 0;          ///< pixels
   std::uint32_t height = 0;         ///< pixels
-  std::vector<float> depth;         ///< [+0, 1]; empty under commit=count
-  std::vector<std::uint32_t> ids;   ///< triangle id or kNoTriangle; empty under commit=count
-  std::vector<std::uint32_t> hits;  ///< triangles that cover the sample; only under commit=count
-  std::vector<glm::vec3> colour;    ///< linear RGB, [0, 1]; only when shading was asked for
-  /// One for each stream of the scene that is interpolated, under the stream's name and in the scene's order: float32,
-  /// NaN (0x7fc00000) in empty pixels and where a vertex' value is not finite.
+  std::vector<float> depth;         ///< in [+0, 1]; empty under commit=count
+  std::vector<std::uint32_t> ids;   ///< triangle id, kNoTriangle or kUnknownTriangle; empty under commit=count
+  std::vector<std::uint32_t> hits;  ///< how many triangles cover the sample; only under commit=count
+  std::vector<glm::vec3> colour;    ///< linear RGB in [0, 1]; only where shading was asked for
+  /// One channel for each stream of the scene that is interpolated, under the stream's name and in the scene's order.
+  /// The values are float32, and NaN (0x7fc00000) in empty pixels and where a vertex' value is not finite.
   std::vector<Channel> channels = {};
 
   /// width * height.
   std::size_t pixels() const { return std::size_t{width} * height; }
-  /// Null where there is no such channel.
+  /// The channel `name`. Null where the framebuffer has no channel of this name.
   const Channel* channel(std::string_view name) const;
-  /// All that there is but what is empty: depth, ids, hits, colour, then `channels`.
+  /// All rasters that are not empty: depth, ids, hits, colour, then `channels`.
   std::vector<ChannelView> views() const;
-  /// The channel of that name, made where there is none.
+  /// The channel `name`; makes the channel where the framebuffer has none of this name.
   Channel& makeChannel(std::string_view name, ChannelType type, unsigned components);
-  /// The first channel of one float32 a pixel, which pictures show; empty where there is none.
+  /// The values of the first channel with one float32 for each pixel; pictures show this channel. Empty where the
+  /// framebuffer has no such channel.
   std::span<const float> values() const;
 };
 

@@ -1,4 +1,4 @@
-// INPUT of the command line to a Scene: a mesh file, a generator, a scene file or a replay file.
+// Makes a Scene from the command line's INPUT: a mesh file, a generator, a scene file or a replay file.
 #pragma once
 
 #include <tessera/framebuffer.h>
@@ -13,54 +13,59 @@
 
 namespace tessera {
 
-/// A value a vertex, by name: x, y or z of its position as the input has it (after the matrices of its meshes), or a
-/// scalar property of the vertices of a PLY file. With a range an integer property i of 0 to 32767 becomes A + (B - A)
-/// (i / 32767), in double precision and then rounded; of others it says nothing.
+/// A request for one value for each vertex, by name. The value is x, y or z of the vertex' position as the input has
+/// the position (after the matrices of the input's meshes), or a scalar property of the vertices of a PLY file. With a
+/// range from A to B, an integer property i of 0 to 32767 becomes, in double precision and then rounded,
+///
+///     A + (B - A) (i / 32767)
+///
+/// Other values stay as the file has them, with or without a range.
 struct AttributeRequest {
-  std::string name;  ///< empty: no attribute
-  std::optional<ValueRange> range;  ///< A and B; absent: values stay as the file has them
+  std::string name;                 ///< empty: no attribute
+  std::optional<ValueRange> range;  ///< A and B; where it is absent, values stay as the file has them
 
   /// Whether the value is one of the position's coordinates.
   bool isCoordinate() const { return name == "x" || name == "y" || name == "z"; }
 };
 
-/// Called now and then while a mesh file is read, with the bytes that are behind and those of the whole file.
+/// Called now and then while a mesh file is read, with the number of bytes that are read and the size of the file.
 using ReadProgress = std::function<void(std::size_t done, std::size_t total)>;
 
-/// A mesh file (.obj .off .ply .stl), an installed one (`mesh:NAME`, see installed-mesh.h),
-/// `generate:NAME?key=value&...`, a scene (.toml) or a replay file (.replay). A lone mesh gets the camera of
-/// frameCamera(). Throws kUsage with one line: file, place, what is wrong, what would be right. `width` and `height`
-/// replace the scene's raster size (0: its own, 1024 for a lone mesh) and shape cameras, but for one given as a matrix.
-/// A flat generator fills the clip volume by the identity matrix. Every mesh has to have the attribute. A scene that
-/// lies far from 0 gets an origin (Scene::origin, extent.h); what a user would not expect is in its notes.
+/// Makes a scene from a mesh file (.obj .off .ply .stl), an installed mesh (`mesh:NAME`, see installed-mesh.h), a
+/// generator (`generate:NAME?key=value&...`), a scene file (.toml) or a replay file (.replay). A lone mesh gets the
+/// camera of frameCamera(). A flat generator fills the clip volume by the identity matrix. `width` and `height` replace
+/// the scene's raster size, and give cameras their aspect, but for a camera that is given as a matrix. A `width` or
+/// `height` of 0 stands for the scene's own, which is 1024 for a lone mesh. Every mesh has to have the attribute. A
+/// scene that lies far from 0 gets an origin (Scene::origin, extent.h). The scene's notes say what a user would not
+/// expect. Throws kUsage with one line: file, place, what is wrong, what would be right.
 Scene loadInput(const std::string& input, std::uint32_t width = 0, std::uint32_t height = 0,
                 const AttributeRequest& attribute = {}, const ReadProgress& progress = {});
 
-/// What an index out of range becomes in a mesh: it stays out of range when meshes are joined.
+/// An index out of range becomes this index in a mesh, so that the index stays out of range when meshes are joined.
 inline constexpr std::uint32_t kBadIndex = 0xffffffffu;
 
-/// Positions, triangles in the file's order (a polygon of n corners is n - 2 of them, a fan from its first corner where
-/// it is convex), normals if the file has them, else computed (area-weighted vertex normals). Every face is kept.
-/// Coordinates of binary files may be infinite or NaN.
+/// What a mesh file holds. Every face is kept, and triangles keep the file's order. A polygon of n corners becomes
+/// n - 2 triangles. Where the polygon is convex, the triangles are a fan from its first corner. Normals are the file's.
+/// Where the file has no normals, they are computed (area-weighted vertex normals). Coordinates of binary files may be
+/// infinite or NaN.
 struct Mesh {
-  std::vector<glm::dvec3> positions;  ///< as the file has them: of text in double, of binary data in its type
-  std::vector<glm::vec3> normals;     ///< one a position, of unit length
-  std::vector<Triangle> triangles;    ///< three indices into `positions` each
-  std::vector<Stream> streams;        ///< what was asked for, but for a coordinate, which the scene's are
-  bool float32 = false;                 ///< the file's coordinates are float32: what made the file has rounded them
-  std::vector<std::string> notes = {};  ///< what a user would not expect of this file: a line each, without its name
-  std::uint64_t concavePolygons = 0;    ///< cut into triangles by ear clipping; the others are fans
+  std::vector<glm::dvec3> positions;    ///< as the file has them: text is read in double, binary data in its own type
+  std::vector<glm::vec3> normals;       ///< one for each position, of unit length
+  std::vector<Triangle> triangles;      ///< each has three indices into `positions`
+  std::vector<Stream> streams;          ///< the attribute asked for; empty where it is a coordinate: the scene adds it
+  bool float32 = false;                 ///< whether the file has float32 coordinates, which its maker has rounded
+  std::vector<std::string> notes = {};  ///< what a user would not expect, a line for each fact, without the file's name
+  std::uint64_t concavePolygons = 0;    ///< how many polygons ear clipping cut into triangles; the others are fans
 };
-/// Reads a mesh file: .obj, .off, .ply or .stl, by its extension. `attribute`: what becomes Mesh::attribute. Throws
-/// kUsage with one line: file, place, what is wrong, what would be right.
+/// Reads a mesh file: .obj, .off, .ply or .stl, by its extension. `attribute` asks for a stream of Mesh::streams.
+/// Throws kUsage with one line: file, place, what is wrong, what would be right.
 Mesh readMesh(const std::filesystem::path& path, const AttributeRequest& attribute = {},
               const ReadProgress& progress = {});
-/// Makes the mesh of a generator. `spec`: an input without its `generate:`, e.g. "icosphere?level=5". Throws kUsage for
-/// an unknown generator or parameter, and for a value out of its range, naming what there is.
+/// Makes the mesh of a generator. `spec` is an input without its `generate:`, e.g. "icosphere?level=5". Throws kUsage
+/// for an unknown generator or parameter, and for a value out of its range. The message says what is there.
 Mesh generateMesh(const std::string& spec);
 
-/// One line a generator: name, parameters with defaults and ranges, what it makes; printed by the help and by
-/// datasets/README.md.
+/// The line on one generator in the help and in datasets/README.md.
 struct GeneratorDoc {
   std::string name;        ///< e.g. "icosphere"
   std::string parameters;  ///< its parameters, with defaults and ranges
@@ -69,21 +74,23 @@ struct GeneratorDoc {
 /// All generators.
 const std::vector<GeneratorDoc>& generatorDocs();
 
-/// A perspective camera that sees all triangles of a scene from the front, a little above, as near as its sides allow.
-/// Vertices that no triangle uses, and triangles that cannot be drawn, do not count.
+/// A perspective camera that sees all triangles of a scene from the front and a little above. The camera is as near as
+/// its sides allow. Vertices that no triangle uses, and triangles that cannot be drawn, do not count.
 Matrix frameCamera(const Scene& scene);
-/// Appends a mesh to a scene that holds no clip positions (ids follow on): its positions, less the scene's origin,
-/// rounded once.
+/// Appends a mesh to a scene that holds no clip positions. The mesh's ids follow the scene's. The mesh's positions,
+/// less the scene's origin, are rounded once.
 void append(Scene& scene, const Mesh& mesh);
 
-/// Writes a replay file, which is what parity leaves of a difference: clip-space positions (those of the contract's
-/// transform where the scene has object-space ones), triangles and the attribute if there is one, bit for bit. A replay
-/// file is text; replay.cpp describes it. Throws kFailure where the file cannot be written.
+/// Writes a replay file, which is what parity leaves of a difference. The file holds clip-space positions, triangles,
+/// and the attribute if the scene has one, bit for bit. Where the scene has object-space positions, the contract's
+/// transform gives the clip-space positions. A replay file is text; replay.cpp describes the format. Throws kFailure
+/// where the file cannot be written.
 void writeReplay(const std::filesystem::path& path, const Scene& scene);
 /// Reads a replay file. Throws kUsage with one line: file, line, what is wrong.
 Scene readReplay(const std::filesystem::path& path);
-/// SHA-256 (hex) of what defines the image, of any shading: size, matrix, positions or clip positions, normals,
-/// triangles, and where there are some the attribute with its name and the origin. Not the scene's own name.
+/// SHA-256 (hex) of what defines the image under any shading: size, matrix, positions or clip positions, normals and
+/// triangles, and also the attribute with its name, and the origin, where the scene has them. The scene's own name does
+/// not count.
 std::string sceneHash(const Scene& scene);
 
 }  // namespace tessera
