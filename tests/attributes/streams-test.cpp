@@ -83,9 +83,9 @@ PLACE_TEST_CASE("Streams of one to four floats have the oracle's bits, whole and
       CHECK(frame.image.channels[i].floats().size() == frame.image.pixels() * scene.streams[i].components);
     }
   }
-  Scene scene = loadInput("generate:soup?count=4000&pixels=120", 300, 200);
+  Scene scene = loadInput("generate:icosphere?level=5", 300, 200);
   addStreams(scene, 5);
-  auto cut = makeCutDevice(openDevice(machine.info().api), 200 << 10);
+  auto cut = makeCutDevice(openDevice(machine.info().api), 400 << 10);
   Rasterizer rasterizer(*cut, machine.kernels());
   const Frame frame = rasterizer.render(scene);
   CHECK(frame.counters.at("batches") > 1);
