@@ -27,6 +27,11 @@ std::string shadeMode(int mode) {
   return number("kShadeId", 1) + number("kShadeFlat", 2) + number("kShadeSmooth", 3) + number("kShade", mode);
 }
 
+/// A traversal, with the walk along a row of cells that all of them take.
+std::string traversal(std::string_view file, std::string_view name) {
+  return include("cell_row") + type("Traversal", file, name);
+}
+
 constexpr bool kTypes = true;
 constexpr Needs kWord64{.int64 = true, .atomicMin64 = true};
 constexpr CommitTraits kColours{.resolves = true, .keepsColours = true, .keepsIds = false};
@@ -279,7 +284,7 @@ std::vector<Axis> rasterAxes() {
        kRaster,
        {{"pixel",
          "all 8 x 8 cells, and each of their pixels tests",
-         type("Traversal", "traversal.pixel", "TraversePixels"),
+         traversal("traversal.pixel", "TraversePixels"),
          kImplementation,
          {},
          "",
@@ -287,7 +292,7 @@ std::vector<Axis> rasterAxes() {
          kOneWalk},
         {"cell-reject",
          "all cells, rejected or accepted whole first",
-         type("Traversal", "traversal.cell_reject", "TraverseCells"),
+         traversal("traversal.cell_reject", "TraverseCells"),
          kImplementation,
          {},
          "",
@@ -295,7 +300,7 @@ std::vector<Axis> rasterAxes() {
          kOneWalk},
         {"hierarchical",
          "squares of 32 x 32, of 16 x 16, then cells, each rejected or accepted whole first",
-         type("Traversal", "traversal.hierarchical", "TraverseHierarchy"),
+         traversal("traversal.hierarchical", "TraverseHierarchy"),
          kImplementation,
          {},
          "Greene, Hierarchical polygon tiling with coverage masks, SIGGRAPH 1996",
@@ -303,7 +308,7 @@ std::vector<Axis> rasterAxes() {
          kThreeWalks},
         {"scanline",
          "in each row of cells from the first that is not rejected to the last",
-         type("Traversal", "traversal.scanline", "TraverseScanlines"),
+         traversal("traversal.scanline", "TraverseScanlines"),
          kImplementation,
          {},
          "",

@@ -31,12 +31,14 @@ void checkBuffers(const CompiledKernel& kernel, const Scene& scene) {
 void Dispatcher::prepare(const Plan& plan, const Scene& scene) {
   const std::vector<CompiledKernel> compiled = compileStages(cache_, plan);
   kernels_.clear();
+  used_.clear();
   plan_ = plan;
   for (const CompiledKernel& stage : compiled) {
     checkBuffers(stage, scene);
     auto& kernel = loaded_[stage.hash];
     if (!kernel) kernel = device_.createKernel(stage);
     kernels_[stage.stage] = kernel.get();
+    for (const auto& [name, bytes] : stage.interface.elementSizes) used_.insert(name);
   }
 }
 
@@ -101,12 +103,6 @@ void Dispatcher::dropInputs() {
   if (inputs_.empty()) return;
   device_.finish();
   inputs_.clear();
-}
-
-bool Dispatcher::uses(std::string_view name) const {
-  return std::ranges::any_of(kernels_, [&](const auto& kernel) {
-    return kernel.second->compiled().interface.elementSizes.contains(std::string(name));
-  });
 }
 
 void Dispatcher::zero(std::string_view name, std::size_t words, std::size_t first) {

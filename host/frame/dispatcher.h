@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -52,7 +53,7 @@ class Dispatcher {
   /// has bound to another buffer, are left out.
   void allocateAll(Extent extent);
   /// Whether a kernel of the plan in force names the buffer.
-  bool uses(std::string_view buffer) const;
+  bool uses(std::string_view buffer) const { return used_.contains(buffer); }
   /// Binds the buffer `as` where kernels say `name`, until the next call for `name`.
   void bind(std::string_view name, std::string_view as) {
     aliases_.insert_or_assign(std::string(name), std::string(as));
@@ -101,6 +102,7 @@ class Dispatcher {
   KernelCache& cache_;
   Plan plan_;                                                           // the plan in force
   std::map<std::string, std::unique_ptr<Kernel>, std::less<>> loaded_;  // by content hash
+  std::set<std::string, std::less<>> used_;                             // buffers that its kernels name
   std::map<std::string, Kernel*, std::less<>> kernels_;                 // kernels of the plan in force, by stage
   std::map<std::string, std::unique_ptr<Buffer>, std::less<>> buffers_;
   std::map<std::string, Input, std::less<>> inputs_;  // inputs that the device reads in place

@@ -29,6 +29,11 @@ run(${CMAKE_COMMAND} -E chdir ${WORK}/images ${WORK}/build/sphere)
 if(NOT output MATCHES "^1280 triangles cover ([0-9]+) of 65536 pixels\n$" OR CMAKE_MATCH_1 LESS 10000 OR CMAKE_MATCH_1 GREATER 60000)
   message(FATAL_ERROR "unexpected output of the program: ${output}")
 endif()
+# Borrowed arrays: what plain arithmetic gives at the pixel, and the same on both devices.
+run(${WORK}/build/borrowed)
+if(NOT output MATCHES "^id [01], depth 0\\.[0-9]+, heat [0-9.]+\nthe same bits\n$")
+  message(FATAL_ERROR "unexpected output of the program: ${output}")
+endif()
 run(${WORK}/prefix/bin/tessera --version)
 # Each loads what writes images from the prefix: the build tree's stays out of it.
 run(${CMAKE_COMMAND} -E chdir ${WORK}/images ${CMAKE_COMMAND} -E env LD_DEBUG=libs

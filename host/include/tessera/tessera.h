@@ -1,6 +1,7 @@
 // All of the library: scenes from files, generators or memory; the rasteriser on its devices; the oracle; images.
 #pragma once
 
+#include <tessera/array.h>
 #include <tessera/counters.h>
 #include <tessera/cpu-device.h>
 #include <tessera/device-kind.h>
