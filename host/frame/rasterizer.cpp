@@ -1,6 +1,7 @@
 // A frame from the first dispatch to the last: bands, their batches, and at each moment the plan's stages of that
 // moment.
 #include <fmt/format.h>
+#include <tessera/error.h>
 #include <tessera/rasterizer.h>
 
 #include <algorithm>
@@ -34,7 +35,12 @@ class FrameRun {
     frame_.image.height = scene.height;
   }
   /// The scene's memory is the caller's again, whether the frame was drawn or failed.
-  ~FrameRun() { d_.dropInputs(); }
+  ~FrameRun() {
+    try {
+      d_.dropInputs();
+    } catch (const Error&) {  // a device that fails here has failed the frame before, and said so
+    }
+  }
   FrameRun(const FrameRun&) = delete;
 
   Frame run() {
@@ -52,6 +58,7 @@ class FrameRun {
     tally_.counters["bands"] = bands.size();
     frame_.counters = std::move(tally_.counters);
     frame_.times = std::move(tally_.times);
+    d_.dropInputs();
     return std::move(frame_);
   }
 

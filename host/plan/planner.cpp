@@ -107,24 +107,26 @@ class Planner {
     if (shade == "smooth" && (normals == nullptr || normals->values.size() != 3 * scene_.positions.size()))
       failUsage("shade=smooth: the scene has no vertex normals; set shade=flat");
     const std::string commit = choice_.resolved().get("commit");
+    for (const Stream& stream : scene_.streams) checkStream(stream);
     for (const Stream* stream : interpolatedStreams(scene_)) {
-      checkStream(*stream);
       if (!commitTraits(commit).keepsIds)
         failUsage(fmt::format("attribute {}: commit={} keeps no ids to interpolate by; leave commit unset",
                               stream->name, commit));
     }
   }
 
+  /// Kernels read what a stream promises: nothing else keeps them within its memory.
   void checkStream(const Stream& stream) const {
+    const char* const what = stream.interpolated ? "attribute" : "stream";
     if (stream.components < 1 || stream.components > 4)
-      failUsage(fmt::format("attribute {}: {} floats a vertex; 1 to 4 would be right", stream.name, stream.components));
+      failUsage(fmt::format("{} {}: {} floats a vertex; 1 to 4 would be right", what, stream.name, stream.components));
     const std::size_t right = scene_.vertexCount() * stream.components;
     if (stream.values.size() != right)
-      failUsage(fmt::format("attribute {}: {} values for {} vertices; {} would be right", stream.name,
+      failUsage(fmt::format("{} {}: {} values for {} vertices; {} would be right", what, stream.name,
                             stream.values.size(), scene_.vertexCount(),
                             stream.components == 1 ? "one a vertex" : std::to_string(right)));
     if (std::ranges::count(scene_.streams, stream.name, &Stream::name) > 1)
-      failUsage(fmt::format("attribute {}: two streams have this name", stream.name));
+      failUsage(fmt::format("{} {}: two streams have this name", what, stream.name));
   }
 
   /// Which stages run, by the list of stages.

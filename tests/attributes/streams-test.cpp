@@ -166,6 +166,10 @@ TEST_CASE("A stream that does not fit its scene is refused by name", "[attribute
   heat.components = 1;
   heat.values.assign(42, 0);
   CHECK(message(scene) == "");
+  Stream& tint = scene.makeStream("tint", 3, false);  // a kernel of a user may read it
+  tint.values.assign(42, 0);
+  CHECK(message(scene) == "stream tint: 42 values for 42 vertices; 126 would be right");
+  scene.streams.pop_back();
   scene.streams.push_back(scene.streams.back());
   CHECK(message(scene) == "attribute heat: two streams have this name");
 }
