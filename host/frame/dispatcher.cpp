@@ -11,8 +11,6 @@
 namespace tessera {
 namespace {
 
-constexpr std::uint64_t kMaxWord = 0xffffffff;  // kernels index with 32 bits
-
 /// A kernel binds the buffers of the pipeline, and the streams of the scene under their own names.
 void checkBuffers(const CompiledKernel& kernel, const Scene& scene) {
   for (const auto& [name, bytes] : kernel.interface.elementSizes) {
@@ -57,8 +55,10 @@ std::uint64_t Dispatcher::bytesOf(std::string_view buffer) const {
   return doc.bytes * count(doc.extent);
 }
 
-bool Dispatcher::fits(std::string_view buffer) const {
-  return bytesOf(buffer) <= device_.info().maxBufferBytes && count(bufferDoc(buffer).extent) <= kMaxWord;
+bool Dispatcher::fits(std::string_view buffer) const { return fits(buffer, count(bufferDoc(buffer).extent)); }
+
+bool Dispatcher::fits(std::string_view buffer, std::uint64_t elements) const {
+  return elements <= kMaxWord && elements * bufferDoc(buffer).bytes <= device_.info().maxBufferBytes;
 }
 
 Buffer& Dispatcher::allocate(std::string_view buffer, std::string_view as) { return reserve(as, bytesOf(buffer)); }

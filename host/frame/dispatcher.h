@@ -20,6 +20,9 @@
 
 namespace tessera {
 
+/// The last word of a buffer that a kernel can name: kernels index with 32 bits.
+inline constexpr std::uint64_t kMaxWord = 0xffffffff;
+
 /// Dispatches stages on one device.
 class Dispatcher {
  public:
@@ -45,6 +48,8 @@ class Dispatcher {
   /// Whether the buffer, at its size with the current uniforms, fits the device, and kernels can index its words with
   /// 32 bits.
   bool fits(std::string_view buffer) const;
+  /// The same for so many elements, which a uniform may have no room for.
+  bool fits(std::string_view buffer, std::uint64_t elements) const;
   /// Makes room for the buffer, at least of the size that the list of buffers gives. A buffer that grows loses what it
   /// held. Buffers are reused between frames. With `as`, the buffer has this name, and bind() binds it.
   Buffer& allocate(std::string_view buffer) { return allocate(buffer, buffer); }

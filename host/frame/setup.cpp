@@ -3,11 +3,6 @@
 #include <algorithm>
 
 namespace tessera {
-namespace {
-
-constexpr std::uint64_t kMaxWord = 0xffffffff;  // kernels index with 32 bits
-
-}  // namespace
 
 bool setUp(Dispatcher& d, const Settings& settings, Tally& tally) {
   const std::uint64_t triangles = d.get("triangleCount");

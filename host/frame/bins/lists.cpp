@@ -7,8 +7,6 @@
 namespace tessera {
 namespace {
 
-constexpr std::uint64_t kMaxWord = 0xffffffff;  // offsets have 32 bits
-
 std::vector<std::uint32_t> tileCounts(Dispatcher& d) {
   return d.read<std::uint32_t>("tileCounts", d.count(Extent::kTiles));
 }

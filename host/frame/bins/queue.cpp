@@ -40,10 +40,9 @@ class Queue final : public Lists {
   }
 
  private:
-  /// Kernels have 32 bits for the place of an entry.
   static void refuseBeyondDevice(Dispatcher& d, std::uint64_t capacity, std::uint64_t entries) {
     const DeviceInfo& device = d.device().info();
-    if (entries * 4 > device.maxBufferBytes || entries > 0xffffffff)
+    if (!d.fits("entries", entries))
       failUnsupported(
           fmt::format("capacity={}: {} tiles of it take {} bytes, the largest buffer of {} holds {}; set a smaller "
                       "capacity or a larger tile",
