@@ -4,6 +4,8 @@
 #include <array>
 #include <cstring>
 #include <span>
+#include <type_traits>
+#include <variant>
 
 #include "host/plan/buffers.h"
 
@@ -12,21 +14,12 @@ namespace {
 
 constexpr std::size_t kPieceWords = 10;  // slang's layout: Piece
 
+/// `size`: elements of the whole raster.
 template <typename T>
-void append(std::vector<T>& whole, Dispatcher& d, std::string_view buffer, std::size_t pixels,
-            const Framebuffer& image) {
-  const std::vector<T> rows = d.read<T>(buffer, pixels);
-  if (whole.empty() && pixels < image.pixels()) whole.reserve(rows.size() / pixels * image.pixels());
+void append(std::vector<T>& whole, Dispatcher& d, std::string_view buffer, std::size_t elements, std::size_t size) {
+  const std::vector<T> rows = d.read<T>(buffer, elements);
+  if (whole.empty() && elements < size) whole.reserve(size);
   whole.insert(whole.end(), rows.begin(), rows.end());
-}
-
-void append(Channel& channel, Dispatcher& d, std::string_view buffer, std::size_t pixels) {
-  std::visit(
-      [&]<typename T>(std::vector<T>& whole) {
-        const std::vector<T> rows = d.read<T>(buffer, pixels * channel.components);
-        whole.insert(whole.end(), rows.begin(), rows.end());
-      },
-      channel.data);
 }
 
 void keep(std::vector<StageOutput>& stages, std::string stage, std::string element, std::size_t words,
@@ -40,22 +33,26 @@ std::string valuesBufferOf(const Stream& stream) { return "values " + stream.nam
 
 void readBand(Dispatcher& d, const Scene& scene, Framebuffer& image) {
   const std::size_t pixels = d.count(Extent::kPixels);
+  const auto intoChannel = [&](Channel& channel, std::string_view buffer) {
+    const unsigned components = channel.components;
+    std::visit([&](auto& whole) { append(whole, d, buffer, components * pixels, components * image.pixels()); },
+               channel.data);
+  };
   for (const BufferDoc& doc : buffers()) {
     if (!doc.channel || !d.uses(doc.name)) continue;
-    if (doc.extent == Extent::kValues)
+    if (doc.extent == Extent::kValues) {
       for (const Stream* stream : interpolatedStreams(scene))
-        append(image.makeChannel(stream->name, doc.channel->type, stream->components), d, valuesBufferOf(*stream),
-               pixels);
-    else if (doc.name == "hits")
-      append(image.hits, d, doc.name, pixels, image);
-    else if (doc.name == "depth")
-      append(image.depth, d, doc.name, pixels, image);
-    else if (doc.name == "ids")
-      append(image.ids, d, doc.name, pixels, image);
-    else if (doc.name == "colour")
-      append(image.colour, d, doc.name, pixels, image);
-    else
-      append(image.makeChannel(doc.name, doc.channel->type, doc.channel->components), d, doc.name, pixels);
+        intoChannel(image.makeChannel(stream->name, doc.channel->type, stream->components), valuesBufferOf(*stream));
+      continue;
+    }
+    std::visit(
+        [&]<typename Member>(Member member) {
+          if constexpr (std::is_same_v<Member, std::monostate>)
+            intoChannel(image.makeChannel(doc.name, doc.channel->type, doc.channel->components), doc.name);
+          else
+            append(*member, d, doc.name, pixels, image.pixels());
+        },
+        image.member(doc.name));
   }
 }
 

@@ -11,6 +11,16 @@ void add(std::vector<ChannelView>& views, std::string_view name, ChannelType typ
   if (!values.empty()) views.push_back({name, type, components, std::as_bytes(std::span(values))});
 }
 
+/// `act(name, type, components, values)` for each member that holds a raster, in the order of views().
+template <typename Frame, typename Act>
+void eachMember(Frame& frame, Act act) {
+  using enum ChannelType;
+  act("depth", kFloat32, 1u, frame.depth);
+  act("ids", kUint32, 1u, frame.ids);
+  act("hits", kUint32, 1u, frame.hits);
+  act("colour", kFloat32, 3u, frame.colour);
+}
+
 }  // namespace
 
 const Channel* Framebuffer::channel(std::string_view name) const {
@@ -26,13 +36,19 @@ Channel& Framebuffer::makeChannel(std::string_view name, ChannelType type, unsig
   return channels.emplace_back(std::move(made));
 }
 
+RasterMember Framebuffer::member(std::string_view name) {
+  RasterMember found;
+  eachMember(*this, [&](std::string_view one, ChannelType, unsigned, auto& values) {
+    if (one == name) found = &values;
+  });
+  return found;
+}
+
 std::vector<ChannelView> Framebuffer::views() const {
-  using enum ChannelType;
   std::vector<ChannelView> views;
-  add(views, "depth", kFloat32, 1, depth);
-  add(views, "ids", kUint32, 1, ids);
-  add(views, "hits", kUint32, 1, hits);
-  add(views, "colour", kFloat32, 3, colour);
+  eachMember(*this, [&](std::string_view name, ChannelType type, unsigned components, const auto& values) {
+    add(views, name, type, components, values);
+  });
   for (const Channel& c : channels)
     std::visit([&](const auto& values) { add(views, c.name, c.type(), c.components, values); }, c.data);
   return views;

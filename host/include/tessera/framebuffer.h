@@ -48,6 +48,10 @@ struct ChannelView {
   std::span<const std::byte> bytes;  ///< 4 * components * pixels bytes
 };
 
+/// A member of a framebuffer that holds a raster; std::monostate where there is none.
+using RasterMember =
+    std::variant<std::monostate, std::vector<float>*, std::vector<std::uint32_t>*, std::vector<glm::vec3>*>;
+
 /// An image on the host. Each vector that is not empty has width * height elements, row-major, with row 0 at the top.
 struct Framebuffer {
   std::uint32_t width = 0;          ///< pixels
@@ -66,6 +70,8 @@ struct Framebuffer {
   const Channel* channel(std::string_view name) const;
   /// All rasters that are not empty: depth, ids, hits, colour, then `channels`.
   std::vector<ChannelView> views() const;
+  /// The member that views() calls `name`, empty or not; std::monostate where no member has the name.
+  RasterMember member(std::string_view name);
   /// The channel `name`; makes the channel where the framebuffer has none of this name.
   Channel& makeChannel(std::string_view name, ChannelType type, unsigned components);
   /// The values of the first channel with one float32 for each pixel; pictures show this channel. Empty where the
