@@ -2,14 +2,14 @@
 #include <fmt/format.h>
 #include <tessera/error.h>
 
-#include "host/frame/bins/bins.h"
+#include "host/frame/bins/all-slots.h"
 
 namespace tessera {
 namespace {
 
 constexpr double kMostBoxes = 4294967296.0;  // that a frame looks at: some seconds on two cores
 
-class AabbScan final : public Bins {
+class AabbScan final : public AllSlots {
  public:
   void check(const BinsLoad& load, const DeviceInfo&) const override {
     const double boxes = load.tiles * load.triangles;
@@ -19,14 +19,6 @@ class AabbScan final : public Bins {
                       "would be taken: set a larger tile, or binning=exact",
                       load.tiles, load.triangles, boxes, kMostBoxes));
   }
-  bool build(BinsWork& work) override {
-    slots_ = work.dispatcher.get("slotCount");
-    return true;
-  }
-  std::uint64_t largest() const override { return slots_; }
-
- private:
-  std::uint64_t slots_ = 0;
 };
 
 }  // namespace

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "host/frame/bins/bins.h"
+#include "host/frame/bins/all-slots.h"
 
 namespace tessera {
 namespace {
@@ -12,7 +12,7 @@ namespace {
 constexpr double kMostMaskBytes = 4294967296.0;  // 4 GiB
 constexpr std::uint64_t kWordBits = 32;
 
-class Bitmask final : public Bins {
+class Bitmask final : public AllSlots {
  public:
   void check(const BinsLoad& load, const DeviceInfo& device) const override {
     const double bytes = load.tiles * std::ceil(load.triangles / kWordBits) * 4;
@@ -30,19 +30,15 @@ class Bitmask final : public Bins {
   std::vector<std::string> stages(const Settings&) const override { return {"bin-insert"}; }
   bool build(BinsWork& work) override {
     Dispatcher& d = work.dispatcher;
-    slots_ = d.get("slotCount");
-    d.set("maskWords", static_cast<std::uint32_t>(ceilDivide(slots_, kWordBits)));
+    AllSlots::build(work);
+    d.set("maskWords", static_cast<std::uint32_t>(ceilDivide(largest(), kWordBits)));
     if (!d.fits("masks")) return false;
     d.allocate("masks");
     d.zero("masks");
     d.dispatch("bin-insert");
     return true;
   }
-  std::uint64_t largest() const override { return slots_; }
   std::uint64_t rangeStep() const override { return kWordBits; }
-
- private:
-  std::uint64_t slots_ = 0;
 };
 
 }  // namespace
