@@ -99,6 +99,13 @@ void Dispatcher::copyInput(std::string_view name, std::span<const std::byte> byt
   if (!bytes.empty()) device_.write(copy, 0, bytes);
 }
 
+void Dispatcher::drop(const std::function<bool(std::string_view)>& gone) {
+  if (std::ranges::any_of(buffers_, [&](const auto& entry) { return gone(entry.first); }))
+    device_.finish();  // what was recorded may use them
+  std::erase_if(buffers_, [&](const auto& entry) { return gone(entry.first); });
+  std::erase_if(aliases_, [&](const auto& entry) { return gone(entry.second); });
+}
+
 void Dispatcher::dropInputs() {
   if (inputs_.empty()) return;
   device_.finish();

@@ -8,6 +8,7 @@
 
 #include <bit>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <set>
@@ -70,6 +71,9 @@ class Dispatcher {
   void input(std::string_view name, std::span<const T> values) {
     inputBytes(name, std::as_bytes(values));
   }
+  /// Lets go of the buffers that `gone` says of by name, and of what bind() has bound to them. Kernels that name them
+  /// then mean the buffer of the name itself.
+  void drop(const std::function<bool(std::string_view name)>& gone);
   /// Forgets the memory of all inputs. The memory is the caller's, and need not be there any longer.
   void dropInputs();
 

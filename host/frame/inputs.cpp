@@ -9,6 +9,17 @@
 namespace tessera {
 namespace {
 
+constexpr char kStream[] = "stream ", kValues[] = "values ";  // no buffer of the pipeline begins so
+
+/// A program may give its streams ever new names. What the scene no longer has would stay as long as the rasterizer.
+void dropFormerStreams(Dispatcher& d, const Scene& scene) {
+  d.drop([&](std::string_view buffer) {
+    for (const std::string_view kind : {kStream, kValues})
+      if (buffer.starts_with(kind)) return scene.stream(buffer.substr(kind.size())) == nullptr;
+    return false;
+  });
+}
+
 void setUniforms(Dispatcher& d, const Scene& scene) {
   d.set("vertexCount", static_cast<std::uint32_t>(scene.vertexCount()));
   d.set("width", scene.width);
@@ -38,9 +49,11 @@ void setUniforms(Dispatcher& d, const Scene& scene) {
 
 }  // namespace
 
-std::string bufferOf(const Stream& stream) { return "stream " + stream.name; }
+std::string bufferOf(const Stream& stream) { return kStream + stream.name; }
+std::string valuesBufferOf(const Stream& stream) { return kValues + stream.name; }
 
 void giveScene(Dispatcher& d, const Scene& scene) {
+  dropFormerStreams(d, scene);
   setUniforms(d, scene);
   if (!d.fits("clipSpace"))
     failUnsupported(fmt::format("{}: {} vertices take {} bytes in clip space, its largest buffer holds {}",

@@ -12,5 +12,7 @@ void giveScene(Dispatcher& dispatcher, const Scene& scene);
 
 /// The name of the buffer that holds a stream.
 std::string bufferOf(const Stream& stream);
+/// The name of the buffer that holds the values of an interpolated stream.
+std::string valuesBufferOf(const Stream& stream);
 
 }  // namespace tessera

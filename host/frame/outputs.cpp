@@ -7,6 +7,7 @@
 #include <type_traits>
 #include <variant>
 
+#include "host/frame/inputs.h"
 #include "host/plan/buffers.h"
 
 namespace tessera {
@@ -28,8 +29,6 @@ void keep(std::vector<StageOutput>& stages, std::string stage, std::string eleme
 }
 
 }  // namespace
-
-std::string valuesBufferOf(const Stream& stream) { return "values " + stream.name; }
 
 void readBand(Dispatcher& d, const Scene& scene, Framebuffer& image) {
   const std::size_t pixels = d.count(Extent::kPixels);

@@ -3,15 +3,10 @@
 
 #include <tessera/rasterizer.h>
 
-#include <string>
-
 #include "host/frame/bins/bins.h"
 #include "host/frame/dispatcher.h"
 
 namespace tessera {
-
-/// The name of the buffer that holds the values of an interpolated stream.
-std::string valuesBufferOf(const Stream& stream);
 
 /// Appends the band's rows to each channel that the plan's kernels make.
 void readBand(Dispatcher& dispatcher, const Scene& scene, Framebuffer& image);

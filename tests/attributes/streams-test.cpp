@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <cstring>
 #include <deque>
 #include <fstream>
@@ -130,6 +131,41 @@ PLACE_TEST_CASE("Nothing of a borrowed array is kept when render returns", "[att
   const Frame after = machine.render(scene);
   CHECK(difference(after, reference::render(scene)) == "");
   CHECK(difference(after.image, before.image) != "");
+}
+
+PLACE_TEST_CASE("Streams of ever new names take no more memory than those of one frame", "[attributes]") {
+  const auto device = openDevice(machine.info().api);
+  Rasterizer rasterizer(*device, machine.kernels());
+  Scene scene = loadInput("generate:icosphere?level=4", 320, 240);
+  const auto render = [&](const std::string& name, float value) {
+    scene.streams.clear();
+    scene.makeStream(name, 4, true).values.own().assign(4 * scene.vertexCount(), value);
+    scene.makeStream(name + " too", 2, true).values.own().assign(2 * scene.vertexCount(), -value);
+    const Frame frame = rasterizer.render(scene);
+    INFO(name);
+    REQUIRE(frame.image.channels.size() == 2);
+    std::size_t covered = 0, right = 0;
+    for (std::size_t k = 0; k < frame.image.pixels(); ++k) {
+      if (frame.image.ids[k] == kNoTriangle) continue;
+      ++covered;
+      right += std::abs(frame.image.channels[0].floats()[4 * k + 3] - value) < 1e-3f &&
+               std::abs(frame.image.channels[1].floats()[2 * k] + value) < 1e-3f;
+    }
+    CHECK(covered > 1000);
+    CHECK(right == covered);
+  };
+  render("first", 1);
+  const std::uint64_t once = device->peakBufferBytes();
+  CHECK(once > 6 * sizeof(float) * scene.width * scene.height);
+  for (int k = 0; k < 50; ++k) render("stream " + std::to_string(k), static_cast<float>(k + 2));
+  render("first", 7);  // a name that comes again
+  CHECK(device->peakBufferBytes() == once);
+  // Neither a scene without streams nor one that has its streams still is misled by the names before.
+  scene.streams.clear();
+  CHECK(rasterizer.render(scene).image.channels.empty());
+  render("first", 8);
+  render("first", 9);
+  CHECK(device->peakBufferBytes() == once);
 }
 
 TEST_CASE("A frame that fails gives borrowed memory back", "[attributes]") {
