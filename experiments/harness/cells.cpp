@@ -20,8 +20,8 @@ bool hasAll(const Variant& asked, const Variant& values) {
 }
 
 /// A cell without its place: what it is made of.
-Cell cellOf(const Sweep& sweep, const Labels& labels) {
-  Cell cell;
+SweepPoint cellOf(const Sweep& sweep, const Labels& labels) {
+  SweepPoint cell;
   cell.labels = labels;
   for (const auto& [name, value] : labels) {
     if (!name.starts_with(kKernel)) {
@@ -54,17 +54,17 @@ std::uint64_t hashOf(std::string_view text) {
 
 }  // namespace
 
-std::vector<Cell> cells(const Sweep& sweep) {
-  std::vector<Cell> variants;
+std::vector<SweepPoint> cells(const Sweep& sweep) {
+  std::vector<SweepPoint> variants;
   for (const Labels& labels : combinations(sweep)) variants.push_back(cellOf(sweep, labels));
   const auto reference =
-      std::ranges::find_if(variants, [&](const Cell& cell) { return hasAll(cell.asked, sweep.reference); });
+      std::ranges::find_if(variants, [&](const SweepPoint& cell) { return hasAll(cell.asked, sweep.reference); });
   if (reference != variants.end()) reference->reference = true;
 
-  std::vector<Cell> all;
+  std::vector<SweepPoint> all;
   std::size_t group = 0;
   const auto addGroup = [&](const std::string& device, std::size_t scene, Size size, unsigned threads) {
-    const auto add = [&](Cell cell, bool twin) {
+    const auto add = [&](SweepPoint cell, bool twin) {
       cell.number = all.size();
       cell.scene = scene;
       cell.size = size;
@@ -75,7 +75,7 @@ std::vector<Cell> cells(const Sweep& sweep) {
       cell.twin = twin;
       all.push_back(std::move(cell));
     };
-    for (const Cell& cell : variants) {
+    for (const SweepPoint& cell : variants) {
       add(cell, false);
       if (cell.reference) add(cell, true);
     }
@@ -93,9 +93,9 @@ std::vector<Cell> cells(const Sweep& sweep) {
   return all;
 }
 
-void makeReference(std::vector<Cell>& cells, std::size_t number) {
-  const Cell chosen = cells.at(number);
-  for (Cell& cell : cells) {
+void makeReference(std::vector<SweepPoint>& cells, std::size_t number) {
+  const SweepPoint chosen = cells.at(number);
+  for (SweepPoint& cell : cells) {
     if (cell.group != chosen.group) continue;
     cell.reference = cell.number == number;
     if (!cell.twin) continue;
@@ -105,12 +105,13 @@ void makeReference(std::vector<Cell>& cells, std::size_t number) {
   }
 }
 
-bool chooseReferences(const Sweep& sweep, std::vector<Cell>& cells, const std::function<bool(std::size_t)>& refused) {
+bool chooseReferences(const Sweep& sweep, std::vector<SweepPoint>& cells,
+                      const std::function<bool(std::size_t)>& refused) {
   if (!sweep.reference.values().empty()) return false;
   bool changed = false;
   std::optional<std::size_t> done;  // the group whose reference stands
   for (std::size_t number = 0; number < cells.size(); ++number) {
-    const Cell& cell = cells[number];
+    const SweepPoint& cell = cells[number];
     if (cell.twin || cell.group == done || refused(number)) continue;
     done = cell.group;
     if (cell.reference) continue;
@@ -120,9 +121,9 @@ bool chooseReferences(const Sweep& sweep, std::vector<Cell>& cells, const std::f
   return changed;
 }
 
-std::vector<Job> jobs(const Sweep& sweep, const std::vector<Cell>& cells) {
+std::vector<Job> jobs(const Sweep& sweep, const std::vector<SweepPoint>& cells) {
   std::vector<Job> jobs;
-  for (const Cell& cell : cells) {
+  for (const SweepPoint& cell : cells) {
     if (jobs.empty() || jobs.back().scene != cell.scene || jobs.back().device != cell.device)
       jobs.push_back({sweep.scenes[cell.scene].name + "@" + cell.device, cell.scene, cell.device, {}});
     jobs.back().cells.push_back(cell.number);
@@ -130,7 +131,7 @@ std::vector<Job> jobs(const Sweep& sweep, const std::vector<Cell>& cells) {
   return jobs;
 }
 
-std::string variantName(const Sweep& sweep, const Cell& cell) {
+std::string variantName(const Sweep& sweep, const SweepPoint& cell) {
   std::vector<std::string> parts;
   for (const SweptAxis& axis : sweptAxes(sweep))
     if (const auto found = cell.labels.find(axis.axis); found != cell.labels.end())
@@ -138,7 +139,7 @@ std::string variantName(const Sweep& sweep, const Cell& cell) {
   return fmt::format("{}", fmt::join(parts, " "));
 }
 
-std::string cellName(const Sweep& sweep, const Cell& cell) {
+std::string cellName(const Sweep& sweep, const SweepPoint& cell) {
   std::string name =
       fmt::format("{} {}x{} {}", sweep.scenes[cell.scene].name, cell.size.width, cell.size.height, cell.device);
   if (cell.threads != 0) name += fmt::format(" {} thread{}", cell.threads, cell.threads == 1 ? "" : "s");
@@ -161,7 +162,7 @@ std::string commandText(const Command& parts) {
   return command + fmt::format(" --repeat {} --error --json -", parts.frames);
 }
 
-std::string cellCommand(const Sweep& sweep, const Cell& cell) {
+std::string cellCommand(const Sweep& sweep, const SweepPoint& cell) {
   const SweepScene& scene = sweep.scenes[cell.scene];
   const auto& range = scene.attribute.range;
   return commandText({.input = scene.text.starts_with('-') ? "./" + scene.text : scene.text,  // no option

@@ -12,8 +12,9 @@
 
 namespace tessera::harness {
 
-/// One variant of one scene at one size on one device. Its place in cells() is its number in journal and rows.
-struct Cell {
+/// One variant of one scene at one size on one device. Its place in cells() is its number in journal and rows, which
+/// call it a cell, as commands and pages do; a cell of the raster is 8 x 8 pixels.
+struct SweepPoint {
   std::size_t number = 0;
   std::size_t scene = 0;  ///< of Sweep::scenes
   Size size;
@@ -37,14 +38,14 @@ struct Job {
 };
 
 /// Devices, then scenes, sizes, threads, then the product of the axes and kernels, the last of which turns fastest.
-std::vector<Cell> cells(const Sweep& sweep);
-std::vector<Job> jobs(const Sweep& sweep, const std::vector<Cell>& cells);
+std::vector<SweepPoint> cells(const Sweep& sweep);
+std::vector<Job> jobs(const Sweep& sweep, const std::vector<SweepPoint>& cells);
 /// What varies, as the cell has it: "tile=8 binning=exact"; "" where nothing does.
-std::string variantName(const Sweep& sweep, const Cell& cell);
+std::string variantName(const Sweep& sweep, const SweepPoint& cell);
 /// "scene 1024x1024 cpu, tile=8 binning=exact": for messages.
-std::string cellName(const Sweep& sweep, const Cell& cell);
+std::string cellName(const Sweep& sweep, const SweepPoint& cell);
 /// The `tessera render` line, for sh in the sweep's folder, that renders what the cell does, as often.
-std::string cellCommand(const Sweep& sweep, const Cell& cell);
+std::string cellCommand(const Sweep& sweep, const SweepPoint& cell);
 
 /// What such a line is made of.
 struct Command {
@@ -63,9 +64,10 @@ std::vector<std::string> commandWords(std::string_view command);
 
 /// Where the sweep names no reference, that of a group is its first cell that is not refused; the twin keeps its
 /// number, so that cells have the same on each machine. Whether there was anything to change.
-bool chooseReferences(const Sweep& sweep, std::vector<Cell>& cells, const std::function<bool(std::size_t)>& refused);
+bool chooseReferences(const Sweep& sweep, std::vector<SweepPoint>& cells,
+                      const std::function<bool(std::size_t)>& refused);
 /// Makes this cell its group's reference.
-void makeReference(std::vector<Cell>& cells, std::size_t number);
+void makeReference(std::vector<SweepPoint>& cells, std::size_t number);
 
 /// The order of a round: a permutation of `cells`, the same for the same seed, job and round (Fisher and Yates, with
 /// datasets/random.h).

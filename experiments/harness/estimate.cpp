@@ -63,7 +63,7 @@ class Ratios {
   }
 
   /// The middle one of those at all sizes and on all machines that the file has rows of.
-  std::optional<double> of(const SweepScene& scene, const Cell& cell) {
+  std::optional<double> of(const SweepScene& scene, const SweepPoint& cell) {
     const auto found = ratios_.find(keyOf(scene.name, cell.device, cell.labels));
     if (found == ratios_.end()) return {};
     std::ranges::sort(found->second);
@@ -90,7 +90,7 @@ class Meter {
   Meter(const Sweep& sweep, const Survey& survey) : sweep_(sweep), uncompiled_(survey.uncompiled.size()) {}
 
   /// The scene as this cell needs it.
-  const Scene& load(const Cell& cell) {
+  const Scene& load(const SweepPoint& cell) {
     if (scene_ && loaded_->scene == cell.scene && loaded_->size == cell.size) return *scene_;
     const SweepScene& input = sweep_.scenes[cell.scene];
     loadingS_ +=
@@ -99,7 +99,7 @@ class Meter {
     return *scene_;
   }
 
-  GroupTimes measure(const Cell& cell) {
+  GroupTimes measure(const SweepPoint& cell) {
     const Scene& scene = load(cell);
     const auto device = openDevice(cell.device, {.threads = cell.threads});
     KernelCache kernels({.files = cell.kernels});
@@ -112,14 +112,15 @@ class Meter {
     times.first = secondsOf([&] { frame = rasterizer.render(scene, cell.asked); });
     times.frame = secondsOf([&] { rasterizer.render(scene, cell.asked, {.readBack = false}); });
     if (scene.attribute() != nullptr)
-      times.attribute = secondsOf([&] { reference::attributeError(scene, imageOf(frame.plan.resolved), frame.image); });
+      times.attribute =
+          secondsOf([&] { reference::attributeError(scene, imageAxesOf(frame.plan.resolved), frame.image); });
     return times;
   }
 
   /// One of the oracle's images at this scene and size; measured once.
-  double oracle(const Cell& cell) {
+  double oracle(const SweepPoint& cell) {
     const auto [entry, isNew] = oracles_.try_emplace({cell.scene, cell.size.width, cell.size.height});
-    if (isNew) entry->second = secondsOf([&] { reference::render(load(cell), imageOf(cell.asked)); });
+    if (isNew) entry->second = secondsOf([&] { reference::render(load(cell), imageAxesOf(cell.asked)); });
     return entry->second;
   }
 
@@ -134,7 +135,7 @@ class Meter {
  private:
   const Sweep& sweep_;
   std::optional<Scene> scene_;
-  const Cell* loaded_ = nullptr;
+  const SweepPoint* loaded_ = nullptr;
   double loadingS_ = 0, compilingS_ = 0;
   std::size_t uncompiled_, compiled_ = 0;
   std::map<std::tuple<std::size_t, std::uint32_t, std::uint32_t>, double> oracles_;
@@ -142,14 +143,14 @@ class Meter {
 
 }  // namespace
 
-Estimate estimate(const Sweep& sweep, const std::vector<Cell>& cells, const Survey& survey) {
+Estimate estimate(const Sweep& sweep, const std::vector<SweepPoint>& cells, const Survey& survey) {
   Ratios ratios(sweep.path.parent_path() / "results.jsonl");
   Meter meter(sweep, survey);
   Estimate result;
   const double frames = 2 + static_cast<double>(sweep.rounds) * (sweep.warmUp + sweep.repeats);
-  const auto addGroup = [&](const std::vector<const Cell*>& run, const GroupTimes& times, double oracle) {
+  const auto addGroup = [&](const std::vector<const SweepPoint*>& run, const GroupTimes& times, double oracle) {
     std::set<std::string> images;
-    for (const Cell* const cell : run) {
+    for (const SweepPoint* const cell : run) {
       std::optional<double> ratio;
       if (!cell->reference && !cell->twin) {
         ratio = ratios.of(sweep.scenes[cell->scene], *cell);
@@ -166,14 +167,15 @@ Estimate estimate(const Sweep& sweep, const std::vector<Cell>& cells, const Surv
   };
   Progress progress("measuring the references", cells.empty() ? 0 : cells.back().group + 1);
   for (auto first = cells.begin(); first != cells.end();) {
-    const auto last = std::find_if(first, cells.end(), [&](const Cell& cell) { return cell.group != first->group; });
-    std::vector<const Cell*> run;
+    const auto last =
+        std::find_if(first, cells.end(), [&](const SweepPoint& cell) { return cell.group != first->group; });
+    std::vector<const SweepPoint*> run;
     for (auto cell = first; cell != last; ++cell)
       if (!survey.cells[cell->number].refused) run.push_back(&*cell);
     first = last;
     if (run.empty()) continue;
-    const auto reference = std::ranges::find_if(run, &Cell::reference);
-    const Cell& measured = reference == run.end() ? *run.front() : **reference;
+    const auto reference = std::ranges::find_if(run, &SweepPoint::reference);
+    const SweepPoint& measured = reference == run.end() ? *run.front() : **reference;
     progress.at(measured.group, cellName(sweep, measured));
     try {
       const GroupTimes times = meter.measure(measured);

@@ -24,6 +24,6 @@ struct Estimate {
 /// cells, rounds and images make of these times. A cell's ratio to its reference comes from `results.jsonl` beside the
 /// sweep file where that has rows of its scene, device and variant. Compiles the references' kernels. Frames are
 /// counted as the time limit at most.
-Estimate estimate(const Sweep& sweep, const std::vector<Cell>& cells, const Survey& survey);
+Estimate estimate(const Sweep& sweep, const std::vector<SweepPoint>& cells, const Survey& survey);
 
 }  // namespace tessera::harness

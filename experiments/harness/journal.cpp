@@ -51,7 +51,7 @@ Sample sampleOf(const Json& head, const Json& line) {
 
 /// Where a resumed session times the reference and its twin once more, it says so; else a sample is there once.
 void takeSample(Reading& reading, std::size_t number, const Json& line) {
-  CellRecord& cell = reading.record.cells.at(number);
+  PointRecord& cell = reading.record.cells.at(number);
   reading.rules.checkSample(line, cell.row);
   const Sample sample = sampleOf(reading.record.head, line);
   const Json& sweep = reading.heads.at(number)->at("sweep");
@@ -87,7 +87,7 @@ void take(Reading& reading, const Json& line) {
   const auto number = wholeAt<std::uint32_t>(line, "cell");
   const auto found = record.cells.find(number);
   if (found == record.cells.end()) failField("cell", &member(line, "cell"), "one of the head's cells");
-  CellRecord& cell = found->second;
+  PointRecord& cell = found->second;
   if (kind == "cell") {
     if (!cell.row.is_null()) failField("cell", &member(line, "cell"), "one that was not checked before");
     const Json& row = objectAt(line, "row");

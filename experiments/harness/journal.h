@@ -30,7 +30,7 @@ struct Sample {
   Json error;  ///< null where it was not measured
 };
 
-struct CellRecord {
+struct PointRecord {
   Json row;           ///< null: not checked yet
   double frameS = 0;  ///< seconds of a frame; 0: not known
   std::vector<Sample> samples, again;
@@ -39,7 +39,7 @@ struct CellRecord {
 struct Record {
   Json head;
   unsigned sessions = 0;
-  std::map<std::size_t, CellRecord> cells;  ///< all of the head's
+  std::map<std::size_t, PointRecord> cells;  ///< all of the head's
   std::size_t bytes = 0;                    ///< of whole lines: what is behind them was being written when it ended
 };
 

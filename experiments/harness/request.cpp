@@ -17,7 +17,7 @@ const Json& pairAt(const Json& json, const char* key) {
   return pair;
 }
 
-Json cellJson(const WorkerCell& cell) {
+Json cellJson(const WorkerPoint& cell) {
   Json json{{"number", cell.number},
             {"size", {cell.size.width, cell.size.height}},
             {"threads", cell.threads},
@@ -27,12 +27,12 @@ Json cellJson(const WorkerCell& cell) {
   return json;
 }
 
-WorkerCell cellOf(const Json& json) {
-  WorkerCell cell{.number = wholeAt<std::uint32_t>(json, "number"),
-                  .size = {pairAt(json, "size")[0], pairAt(json, "size")[1]},
-                  .threads = wholeAt<unsigned>(json, "threads"),
-                  .asked = variantOf(objectAt(json, "asked")),
-                  .kernels = {}};
+WorkerPoint cellOf(const Json& json) {
+  WorkerPoint cell{.number = wholeAt<std::uint32_t>(json, "number"),
+                   .size = {pairAt(json, "size")[0], pairAt(json, "size")[1]},
+                   .threads = wholeAt<unsigned>(json, "threads"),
+                   .asked = variantOf(objectAt(json, "asked")),
+                   .kernels = {}};
   for (const auto& [stage, file] : objectAt(json, "kernels").items())
     cell.kernels[stage] = textAt(objectAt(json, "kernels"), stage.c_str());
   return cell;

@@ -22,7 +22,7 @@ namespace tessera::harness {
 
 using Json = nlohmann::ordered_json;
 
-struct WorkerCell {
+struct WorkerPoint {
   std::size_t number = 0;
   Size size;
   unsigned threads = 0;
@@ -40,7 +40,7 @@ struct WorkerJob {
   double timeLimitS = 60;
   std::uint64_t seed = 1;
   std::filesystem::path folder;  ///< of the results: pictures/ goes into it
-  std::vector<WorkerCell> cells;
+  std::vector<WorkerPoint> cells;
 };
 
 Json toJson(const WorkerJob& job);

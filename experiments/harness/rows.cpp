@@ -30,7 +30,7 @@ Json samplesJson(const std::vector<Sample>& samples) {
   return json;
 }
 
-Json timeJson(const CellRecord& cell, const std::vector<Sample>& samples, const std::string& clock) {
+Json timeJson(const PointRecord& cell, const std::vector<Sample>& samples, const std::string& clock) {
   std::vector<FrameTimes> times;
   for (const Sample& sample : samples) times.push_back(sample.times);
   const Spread total = totalSpread(times);
@@ -73,7 +73,7 @@ void putErrors(Json& row, const std::vector<Sample>& samples) {
   if (!lists.empty()) row["error_samples"] = lists;
 }
 
-Json rowOf(const Json& head, const CellRecord& cell) {
+Json rowOf(const Json& head, const PointRecord& cell) {
   const std::vector<Sample> samples = inOrder(cell.samples);
   Json checked = cell.row;
   putErrors(checked, samples);
@@ -102,7 +102,7 @@ double medianOf(std::vector<double> values) {
 std::string rowsText(const Record& record) {
   std::string text;
   for (const auto& head : record.head.at("cells"))
-    if (const CellRecord& cell = record.cells.at(head.at("cell")); !cell.row.is_null())
+    if (const PointRecord& cell = record.cells.at(head.at("cell")); !cell.row.is_null())
       text += lineOf(rowOf(head, cell));
   return text;
 }

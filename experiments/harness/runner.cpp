@@ -35,7 +35,7 @@ using Clock = std::chrono::steady_clock;
 
 double secondsSince(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
-Json sweepJson(const Sweep& sweep, const Cell& cell) {
+Json sweepJson(const Sweep& sweep, const SweepPoint& cell) {
   const SweepScene& scene = sweep.scenes[cell.scene];
   Json json{{"title", sweep.title},   {"question", sweep.question},  {"sha256", sweep.sha256}, {"cell", cell.number},
             {"group", cell.group},    {"reference", cell.reference}, {"twin", cell.twin},      {"asked", cell.labels},
@@ -48,7 +48,7 @@ Json sweepJson(const Sweep& sweep, const Cell& cell) {
   return json;
 }
 
-Json headOf(const Sweep& sweep, const std::vector<Cell>& cells, const std::vector<Job>& jobs) {
+Json headOf(const Sweep& sweep, const std::vector<SweepPoint>& cells, const std::vector<Job>& jobs) {
   Json head{{"kind", "head"},
             {"schema_version", kRowSchemaVersion},
             {"sweep", {{"title", sweep.title}, {"question", sweep.question}, {"sha256", sweep.sha256}}},
@@ -232,7 +232,7 @@ class Runner {
                       .folder = fs::absolute(folder_),
                       .cells = {}};
     for (const std::size_t number : job.cells) {
-      const Cell& cell = cells_[number];
+      const SweepPoint& cell = cells_[number];
       if (!schedule_.checked(number) || schedule_.runs(number))
         request.cells.push_back({number, cell.size, cell.threads, cell.asked, cell.kernels});
     }
@@ -375,7 +375,7 @@ class Runner {
       run.truth = sweep_.truth;
       run.seed = sweep_.seed;
       row = Json::parse(rowText(run));
-      const Cell& cell = cells_[number];
+      const SweepPoint& cell = cells_[number];
       row["scene"] = {{"name", sweep_.scenes[cell.scene].name}, {"size", {cell.size.width, cell.size.height}}};
     }
     row["status"] = status;
@@ -446,7 +446,7 @@ class Runner {
 
   const fs::path folder_;
   const Sweep sweep_;
-  std::vector<Cell> cells_;
+  std::vector<SweepPoint> cells_;
   const std::vector<Job> jobs_;
   const std::optional<Record> begun_;
   Schedule schedule_;

@@ -5,13 +5,13 @@
 
 namespace tessera::harness {
 
-Schedule::Schedule(const Sweep& sweep, const std::vector<Cell>& cells, const std::vector<Job>& jobs,
+Schedule::Schedule(const Sweep& sweep, const std::vector<SweepPoint>& cells, const std::vector<Job>& jobs,
                    const Record& record)
     : sweep_(sweep), cells_(cells), resumed_(record.sessions > 0) {
   for (const Job& job : jobs)
     for (const std::size_t number : job.cells) {
       State& state = states_[number];
-      const CellRecord& cell = record.cells.at(number);
+      const PointRecord& cell = record.cells.at(number);
       if (!cell.row.is_null()) check(number, cell.row.at("status") == "ok", cell.frameS);
       for (const Sample& sample : cell.samples) state.have.emplace(sample.round, sample.repeat);
     }
@@ -35,7 +35,7 @@ std::vector<Turn> Schedule::turns(const Job& job, unsigned round) const {
     if (runs(number) && !turnOf(number).repeats.empty()) groups.insert(cells_[number].group);
   std::vector<Turn> turns;
   for (const std::size_t number : turnOrder(job.cells, sweep_.seed, job.name, round)) {
-    const Cell& cell = cells_[number];
+    const SweepPoint& cell = cells_[number];
     if (!runs(number) || !groups.contains(cell.group)) continue;
     Turn turn = turnOf(number);
     if (!resumed_ || !(cell.reference || cell.twin)) turn.again.clear();

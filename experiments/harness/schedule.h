@@ -19,7 +19,8 @@ struct Turn {
 
 class Schedule {
  public:
-  Schedule(const Sweep& sweep, const std::vector<Cell>& cells, const std::vector<Job>& jobs, const Record& record);
+  Schedule(const Sweep& sweep, const std::vector<SweepPoint>& cells, const std::vector<Job>& jobs,
+           const Record& record);
 
   bool checked(std::size_t cell) const { return state(cell).checked; }
   bool runs(std::size_t cell) const { return state(cell).runs; }  ///< checked, and not ended
@@ -50,7 +51,7 @@ class Schedule {
   std::size_t samplesLeft(const State& state) const;
 
   const Sweep& sweep_;
-  const std::vector<Cell>& cells_;
+  const std::vector<SweepPoint>& cells_;
   const bool resumed_;
   std::map<std::size_t, State> states_;
 };

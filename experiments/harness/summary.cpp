@@ -18,18 +18,18 @@ constexpr std::size_t kMostLines = 40;
 
 struct Line {
   const Json* head;
-  const CellRecord* cell;
+  const PointRecord* cell;
   std::string status() const { return cell->row.is_null() ? "not run" : textAt(cell->row, "status"); }
 };
 
-double medianTime(const CellRecord& cell) {
+double medianTime(const PointRecord& cell) {
   std::vector<FrameTimes> times;
   for (const Sample& sample : cell.samples) times.push_back(sample.times);
   return totalSpread(times).median;
 }
 
 /// Session and round -> median time of the turn, those that were taken again among them.
-std::map<std::pair<unsigned, unsigned>, double> turnsOf(const CellRecord& cell) {
+std::map<std::pair<unsigned, unsigned>, double> turnsOf(const PointRecord& cell) {
   std::map<std::pair<unsigned, unsigned>, std::vector<double>> times;
   for (const auto* samples : {&cell.samples, &cell.again})
     for (const Sample& s : *samples) times[{s.session, s.round}].push_back(static_cast<double>(s.times.totalNs));
@@ -39,7 +39,7 @@ std::map<std::pair<unsigned, unsigned>, double> turnsOf(const CellRecord& cell) 
 }
 
 /// As the report has it: median over the rounds of time over the reference's in the same session and round.
-std::optional<double> ratio(const CellRecord& cell, const CellRecord& reference) {
+std::optional<double> ratio(const PointRecord& cell, const PointRecord& reference) {
   const auto base = turnsOf(reference);
   std::vector<double> ratios;
   for (const auto& [turn, time] : turnsOf(cell))

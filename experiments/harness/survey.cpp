@@ -42,7 +42,7 @@ std::string imageText(const Variant& resolved) {
   return text;
 }
 
-Survey survey(const Sweep& sweep, const std::vector<Cell>& cells, KernelCache& kernels) {
+Survey survey(const Sweep& sweep, const std::vector<SweepPoint>& cells, KernelCache& kernels) {
   Survey survey;
   survey.cells.resize(cells.size());
   std::map<std::pair<std::string, unsigned>, Opened> devices;
@@ -51,8 +51,8 @@ Survey survey(const Sweep& sweep, const std::vector<Cell>& cells, KernelCache& k
   std::size_t loaded = 0;
   Size size;
   Progress progress("planning", cells.size());
-  for (const Cell& cell : cells) {
-    SurveyedCell& result = survey.cells[cell.number];
+  for (const SweepPoint& cell : cells) {
+    SurveyedPoint& result = survey.cells[cell.number];
     const auto key = std::pair(cell.device, cell.threads);
     if (!devices.contains(key)) devices[key] = open(cell.device, cell.threads);
     const Opened& opened = devices[key];

@@ -14,7 +14,7 @@
 
 namespace tessera::harness {
 
-struct SurveyedCell {
+struct SurveyedPoint {
   std::optional<std::string> refused;  ///< why it cannot run here: one line
   bool deviceIsHere = true;
   /// What it is held against, as texts: cells of one scene and size that have the same share the oracle's image. One,
@@ -23,14 +23,14 @@ struct SurveyedCell {
 };
 
 struct Survey {
-  std::vector<SurveyedCell> cells;  ///< by number
+  std::vector<SurveyedPoint> cells;  ///< by number
   std::size_t kernels = 0;          ///< different ones
   std::vector<KernelRequest> uncompiled;
 };
 
 /// Loads each scene at each size and plans each cell on its device. A device that is not here refuses its cells. Throws
 /// as loadInput does.
-Survey survey(const Sweep& sweep, const std::vector<Cell>& cells, KernelCache& kernels);
+Survey survey(const Sweep& sweep, const std::vector<SweepPoint>& cells, KernelCache& kernels);
 
 /// The settings that make an image of the oracle, as text.
 std::string imageText(const Variant& resolved);

@@ -105,7 +105,7 @@ class Worker {
   }
 
  private:
-  const Scene& sceneOf(const WorkerCell& cell) {
+  const Scene& sceneOf(const WorkerPoint& cell) {
     const auto [place, isNew] = scenes_.try_emplace({cell.size.width, cell.size.height});
     if (isNew) {
       place->second = loadInput(job_.input, cell.size.width, cell.size.height, job_.attribute);
@@ -114,25 +114,25 @@ class Worker {
     return place->second;
   }
 
-  Device& deviceOf(const WorkerCell& cell) {
+  Device& deviceOf(const WorkerPoint& cell) {
     auto& device = devices_[cell.threads];
     if (!device) device = openDevice(job_.device, {.threads = cell.threads});
     return *device;
   }
 
-  KernelCache& kernelsOf(const WorkerCell& cell) {
+  KernelCache& kernelsOf(const WorkerPoint& cell) {
     auto& kernels = kernels_[cell.kernels];
     if (!kernels) kernels = std::make_unique<KernelCache>(KernelCache::Options{.files = cell.kernels});
     return *kernels;
   }
 
-  Rasterizer& rasterizerOf(const WorkerCell& cell) {
+  Rasterizer& rasterizerOf(const WorkerPoint& cell) {
     auto& rasterizer = rasterizers_[{cell.threads, cell.kernels}];
     if (!rasterizer) rasterizer = std::make_unique<Rasterizer>(deviceOf(cell), kernelsOf(cell));
     return *rasterizer;
   }
 
-  Run beginOf(const WorkerCell& cell, const Device& device, const KernelCache& kernels) {
+  Run beginOf(const WorkerPoint& cell, const Device& device, const KernelCache& kernels) {
     Run run = beginRun(sceneOf(cell), cell.asked, device, kernels);
     run.attributeRange = job_.attribute.range;
     run.truth = job_.truth;
@@ -145,7 +145,7 @@ class Worker {
     return first && compiles ? kFirstFrames * job_.timeLimitS : job_.timeLimitS;
   }
 
-  void check(const WorkerCell& cell) {
+  void check(const WorkerPoint& cell) {
     const auto device = openDevice(job_.device, {.threads = cell.threads});
     KernelCache& kernels = kernelsOf(cell);
     Run run = beginOf(cell, *device, kernels);
@@ -168,7 +168,7 @@ class Worker {
   }
 
   /// One timed frame, and with `warm` those that warm up before it.
-  void time(const WorkerCell& cell, bool warm) try {
+  void time(const WorkerPoint& cell, bool warm) try {
     const Scene& scene = sceneOf(cell);
     Device& device = deviceOf(cell);
     Rasterizer& rasterizer = rasterizerOf(cell);
@@ -196,7 +196,7 @@ class Worker {
 
   const WorkerJob job_;
   const int out_;
-  std::map<std::size_t, const WorkerCell*> cells_;
+  std::map<std::size_t, const WorkerPoint*> cells_;
   std::map<std::pair<std::uint32_t, std::uint32_t>, Scene> scenes_;
   std::map<unsigned, std::unique_ptr<Device>> devices_;  // by threads: frames that are timed
   std::map<KernelFiles, std::unique_ptr<KernelCache>> kernels_;

@@ -152,7 +152,7 @@ void addDevice(CLI::App& app, Options& options, bool many) {
   if (!many) option->expected(1);
 }
 
-std::vector<std::string> settingsOf(const Options& options) {
+std::vector<std::string> typedSettings(const Options& options) {
   std::vector<std::string> settings;
   for (const std::string& typed : options.settings) {
     bool first = true;
@@ -170,7 +170,7 @@ std::vector<std::string> settingsOf(const Options& options) {
   return settings;
 }
 
-Variant variantOf(const Options& options) { return Variant(fmt::format("{}", fmt::join(settingsOf(options), " "))); }
+Variant variantOf(const Options& options) { return Variant(fmt::format("{}", fmt::join(typedSettings(options), " "))); }
 
 KernelFiles kernelFilesOf(const Options& options) {
   KernelFiles files;

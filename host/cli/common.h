@@ -41,7 +41,7 @@ void addDevice(CLI::App& app, Options& options, bool many);
 void addQuiet(CLI::App& app, bool& quiet);
 
 /// Each setting alone, as "axis=value".
-std::vector<std::string> settingsOf(const Options& options);
+std::vector<std::string> typedSettings(const Options& options);
 Variant variantOf(const Options& options);
 /// The user's kernels, of which each file is there and in a language that we know. Throws kUsage.
 KernelFiles kernelFilesOf(const Options& options);

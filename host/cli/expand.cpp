@@ -31,7 +31,7 @@ struct ExpandOptions {
   Changes changes;
 };
 
-std::string expandJson(const Sweep& sweep, const std::vector<Cell>& cells, const Survey& survey,
+std::string expandJson(const Sweep& sweep, const std::vector<SweepPoint>& cells, const Survey& survey,
                        const std::optional<Estimate>& estimate) {
   nlohmann::ordered_json json{{"title", sweep.title}, {"sha256", sweep.sha256}, {"seed", sweep.seed}};
   json["jobs"] = nlohmann::ordered_json::array();
@@ -42,7 +42,7 @@ std::string expandJson(const Sweep& sweep, const std::vector<Cell>& cells, const
     for (const std::size_t number : job.cells) jobOf[number] = job.name;
   }
   json["cells"] = nlohmann::ordered_json::array();
-  for (const Cell& cell : cells) {
+  for (const SweepPoint& cell : cells) {
     const auto& refused = survey.cells[cell.number].refused;
     json["cells"].push_back({{"cell", cell.number},
                              {"job", jobOf[cell.number]},
@@ -61,7 +61,7 @@ std::string expandJson(const Sweep& sweep, const std::vector<Cell>& cells, const
 }
 
 /// A line a job.
-std::string jobsTable(const Sweep& sweep, const std::vector<Cell>& cells, const Survey& survey) {
+std::string jobsTable(const Sweep& sweep, const std::vector<SweepPoint>& cells, const Survey& survey) {
   std::vector<std::vector<std::string>> rows{{"job", "sizes", "threads", "cells", "refused"}};
   for (const Job& job : jobs(sweep, cells)) {
     std::set<std::string> threads;
@@ -79,8 +79,8 @@ std::string jobsTable(const Sweep& sweep, const std::vector<Cell>& cells, const 
   return table(rows);
 }
 
-std::size_t referenceOf(const std::vector<Cell>& cells, std::size_t group) {
-  return std::ranges::find_if(cells, [=](const Cell& c) { return c.group == group && c.reference; })->number;
+std::size_t referenceOf(const std::vector<SweepPoint>& cells, std::size_t group) {
+  return std::ranges::find_if(cells, [=](const SweepPoint& c) { return c.group == group && c.reference; })->number;
 }
 
 /// What a variant is to the groups that it stands for.
@@ -95,7 +95,7 @@ std::string referenceWords(std::size_t references, std::size_t refused, std::siz
 
 /// A line a variant, and one more for each reason that some of its cells are refused for. Those of scenes, devices,
 /// sizes and threads are counted together.
-std::string variantsTable(const Sweep& sweep, const std::vector<Cell>& cells, const Survey& survey) {
+std::string variantsTable(const Sweep& sweep, const std::vector<SweepPoint>& cells, const Survey& survey) {
   struct Variants {
     std::size_t cells = 0;
     std::size_t references = 0, refusedReferences = 0;
@@ -103,7 +103,7 @@ std::string variantsTable(const Sweep& sweep, const std::vector<Cell>& cells, co
   };
   std::vector<std::pair<std::string, Variants>> variants;
   std::map<std::string, std::size_t> places;
-  for (const Cell& cell : cells) {
+  for (const SweepPoint& cell : cells) {
     const std::string name = variantName(sweep, cell);
     const auto [place, isNew] = places.try_emplace(name, variants.size());
     if (isNew) variants.emplace_back(name, Variants{});
@@ -157,15 +157,15 @@ std::string estimateText(const Estimate& estimate) {
 
 ExitCode expand(const ExpandOptions& options) {
   const Sweep sweep = readSweep(options.sweep, options.quick, options.changes);
-  std::vector<Cell> all = cells(sweep);
+  std::vector<SweepPoint> all = cells(sweep);
   KernelCache kernels;
   Survey surveyed = survey(sweep, all, kernels);
   if (chooseReferences(sweep, all, [&](std::size_t number) { return surveyed.cells[number].refused.has_value(); }))
-    for (const Cell& cell : all)
+    for (const SweepPoint& cell : all)
       if (cell.twin) surveyed.cells[cell.number] = surveyed.cells[referenceOf(all, cell.group)];
   if (!options.json) {
     std::size_t refused = 0;
-    for (const SurveyedCell& cell : surveyed.cells) refused += cell.refused.has_value();
+    for (const SurveyedPoint& cell : surveyed.cells) refused += cell.refused.has_value();
     say(stdout, "{}\n{}\n\n{}\n{}\n", sweep.title, sweep.question, jobsTable(sweep, all, surveyed),
         variantsTable(sweep, all, surveyed));
     say(stdout,

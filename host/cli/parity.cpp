@@ -105,7 +105,7 @@ class Parity {
     auto reduced = reduceToReplay(scene_, side, other ? &*other : nullptr, kernels_.files());
     if (!reduced) return {};
     std::string text = other ? "" : " --device " + quoted(different->attempt.device);
-    for (const auto& setting : settingsOf(options_))
+    for (const auto& setting : typedSettings(options_))
       if (!setting.starts_with("shade=")) text += " --set " + setting;  // a replay has no normals
     for (const auto& [stage, file] : filesOfReplay(reduced->scene, side, kernels_.files()))
       text += " --kernel " + quoted(stage + "=" + file.string());

@@ -86,7 +86,8 @@ void measureError(Run& run, const Framebuffer& image) {
   if (!image.hits.empty())
     run.hitCountNotOne =
         static_cast<std::uint64_t>(std::ranges::count_if(image.hits, [](std::uint32_t hits) { return hits > 1; }));
-  if (!image.channels.empty()) run.attributeError = reference::attributeError(*run.scene, imageOf(run.variant), image);
+  if (!image.channels.empty())
+    run.attributeError = reference::attributeError(*run.scene, imageAxesOf(run.variant), image);
 }
 
 std::string frameLabel(const Run& run) {

@@ -8,7 +8,8 @@
 #include "host/oracle/oracle-image.h"
 
 namespace tessera {
-Oracle::Oracle(const Scene& scene, const Variant& variant) : image_(reference::render(scene, imageOf(variant)).image) {}
+Oracle::Oracle(const Scene& scene, const Variant& variant)
+    : image_(reference::render(scene, imageAxesOf(variant)).image) {}
 
 Difference Oracle::against(const Framebuffer& frame) const { return compare(expected(frame), frame); }
 

@@ -4,7 +4,7 @@
 
 namespace tessera {
 
-reference::Image imageOf(const Variant& variant) {
+reference::ImageAxes imageAxesOf(const Variant& variant) {
   using namespace reference;
   const std::string cull = variant.get("cull"), interpolate = variant.get("interpolate");
   return {.cull = cull == "back"    ? Cull::kBack

@@ -6,7 +6,7 @@
 
 namespace tessera {
 
-/// The oracle's image for the axes that define one; an axis that is not set has its default.
-reference::Image imageOf(const Variant& variant);
+/// The image axes of a variant; an axis that is not set has its default.
+reference::ImageAxes imageAxesOf(const Variant& variant);
 
 }  // namespace tessera

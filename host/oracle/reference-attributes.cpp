@@ -23,7 +23,7 @@ using Three = std::array<T, 3>;
 // Where one triangle lies, and from that the weights of its vertices at a pixel.
 class Weights {
  public:
-  Weights(const Scene& scene, const Image& image, const std::vector<glm::vec4>& vertices, std::uint32_t id)
+  Weights(const Scene& scene, const ImageAxes& axes, const std::vector<glm::vec4>& vertices, std::uint32_t id)
       : halfWidth_(static_cast<float>(scene.width) / 2), halfHeight_(static_cast<float>(scene.height) / 2) {
     for (int k = 0; k < 3; ++k) {
       clip_[k] = vertices[scene.triangles[id][k]];
@@ -32,7 +32,7 @@ class Weights {
     if (!oneW || clip(clip_, scene.width, scene.height).outsideSome) return;
     linear_.emplace(Piece{id, {}, {}, {}});
     for (int k = 0; k < 3; ++k) {
-      const Snapped corner = project(clip_[k], scene, image).value();
+      const Snapped corner = project(clip_[k], scene, axes).value();
       linear_->x[k] = corner.x;
       linear_->y[k] = corner.y;
     }
@@ -125,26 +125,26 @@ Exact exactlyWeighed(const Three<Exact>& w, const Three<float>& value) {
 
 // Calls use(k, id, weights, i, j) for each covered pixel k = (i, j).
 template <typename Use>
-void eachPixel(const Scene& scene, const Image& image, const Framebuffer& frame, Use use) {
+void eachPixel(const Scene& scene, const ImageAxes& axes, const Framebuffer& frame, Use use) {
   const std::vector<glm::vec4> vertices = transform(scene);
   std::optional<Weights> weights;
   std::uint32_t id = kNoTriangle;
   for (std::size_t k = 0; k < frame.ids.size(); ++k) {
     if (frame.ids[k] >= scene.triangles.size()) continue;
-    if (frame.ids[k] != id) weights.emplace(scene, image, vertices, id = frame.ids[k]);
+    if (frame.ids[k] != id) weights.emplace(scene, axes, vertices, id = frame.ids[k]);
     use(k, id, *weights, static_cast<std::int64_t>(k % frame.width), static_cast<std::int64_t>(k / frame.width));
   }
 }
 
 }  // namespace
 
-void interpolate(const Scene& scene, const Image& image, Framebuffer& frame) {
+void interpolate(const Scene& scene, const ImageAxes& axes, Framebuffer& frame) {
   frame.channels.clear();
   for (const Stream* stream : interpolatedStreams(scene))
     frame.makeChannel(stream->name, ChannelType::kFloat32, stream->components)
         .floats()
         .assign(frame.ids.size() * stream->components, kNoValue);
-  eachPixel(scene, image, frame,
+  eachPixel(scene, axes, frame,
             [&](std::size_t k, std::uint32_t id, const Weights& weights, std::int64_t i, std::int64_t j) {
               const Three<float> w = weights.at(i, j);
               std::size_t at = 0;
@@ -156,11 +156,11 @@ void interpolate(const Scene& scene, const Image& image, Framebuffer& frame) {
             });
 }
 
-AttributeError attributeError(const Scene& scene, const Image& image, const Framebuffer& frame) {
+AttributeError attributeError(const Scene& scene, const ImageAxes& axes, const Framebuffer& frame) {
   AttributeError error;
   double squares = 0;
   std::uint64_t count = 0;
-  eachPixel(scene, image, frame,
+  eachPixel(scene, axes, frame,
             [&](std::size_t k, std::uint32_t id, const Weights& weights, std::int64_t i, std::int64_t j) {
               const Three<Exact> w = weights.exactAt(i, j);
               bool measured = false;

@@ -38,10 +38,10 @@ std::int64_t doubleArea(const Snapped& a, const Snapped& b, const Snapped& c) {
 }
 
 void addPiece(std::uint32_t id, const glm::vec4& a, const glm::vec4& b, const glm::vec4& c, const Scene& scene,
-              const Image& image, std::vector<Piece>& pieces, Counts& counts) {
-  const auto v0 = project(a, scene, image);
-  auto v1 = project(b, scene, image);
-  auto v2 = project(c, scene, image);
+              const ImageAxes& axes, std::vector<Piece>& pieces, Counts& counts) {
+  const auto v0 = project(a, scene, axes);
+  auto v1 = project(b, scene, axes);
+  auto v2 = project(c, scene, axes);
   if (!v0 || !v1 || !v2) {
     ++counts.behind;
     return;
@@ -52,7 +52,7 @@ void addPiece(std::uint32_t id, const glm::vec4& a, const glm::vec4& b, const gl
     return;
   }
   const bool front = area2 < 0;
-  if ((image.cull == Cull::kBack && !front) || (image.cull == Cull::kFront && front)) {
+  if ((axes.cull == Cull::kBack && !front) || (axes.cull == Cull::kFront && front)) {
     ++counts.facing;
     return;
   }
@@ -62,13 +62,13 @@ void addPiece(std::uint32_t id, const glm::vec4& a, const glm::vec4& b, const gl
 
 }  // namespace
 
-std::optional<Snapped> project(const glm::vec4& v, const Scene& scene, const Image& image) {
+std::optional<Snapped> project(const glm::vec4& v, const Scene& scene, const ImageAxes& axes) {
   const float halfWidth = static_cast<float>(scene.width) * 0.5f;
   const float halfHeight = static_cast<float>(scene.height) * 0.5f;
   const float r = 1.0f / v.w;
   if (!(v.w > 0) || !std::isfinite(r)) return std::nullopt;
-  const auto x = snap((v.x * r) * halfWidth + halfWidth, image.subPixelBits);
-  const auto y = snap((v.y * r) * halfHeight + halfHeight, image.subPixelBits);
+  const auto x = snap((v.x * r) * halfWidth + halfWidth, axes.subPixelBits);
+  const auto y = snap((v.y * r) * halfHeight + halfHeight, axes.subPixelBits);
   if (!x || !y) return std::nullopt;
   const float z = v.z * r;
   return Snapped{*x, *y, z > 0 ? (z < 1 ? z : 1.0f) : 0.0f};
@@ -86,7 +86,7 @@ std::vector<glm::vec4> transform(const Scene& scene) {
   return clip;
 }
 
-std::vector<Piece> pieces(const Scene& scene, const Image& image, Counts* counts) {
+std::vector<Piece> pieces(const Scene& scene, const ImageAxes& axes, Counts* counts) {
   const std::vector<glm::vec4> vertices = transform(scene);
   Counts counted;
   std::vector<Piece> result;
@@ -106,7 +106,7 @@ std::vector<Piece> pieces(const Scene& scene, const Image& image, Counts* counts
     counted.outside += polygon.empty();
     counted.clipped += outsideSome;
     for (std::size_t i = 2; i < polygon.size(); ++i) {
-      addPiece(id, polygon[0], polygon[i - 1], polygon[i], scene, image, result, counted);
+      addPiece(id, polygon[0], polygon[i - 1], polygon[i], scene, axes, result, counted);
     }
   }
   if (counts) *counts = counted;

@@ -15,6 +15,6 @@ struct Snapped {
 };
 
 /// Of a finite clip-space position. Nothing where the contract counts the piece as behind.
-std::optional<Snapped> project(const glm::vec4& v, const Scene& scene, const Image& image);
+std::optional<Snapped> project(const glm::vec4& v, const Scene& scene, const ImageAxes& axes);
 
 }  // namespace tessera::reference

@@ -69,9 +69,9 @@ void measure(Result& result, const std::vector<Piece>& all, const std::vector<st
 
 }  // namespace
 
-Result render(const Scene& scene, const Image& image, bool measureDepth) {
+Result render(const Scene& scene, const ImageAxes& axes, bool measureDepth) {
   Result result;
-  const std::vector<Piece> all = pieces(scene, image, &result.counts);
+  const std::vector<Piece> all = pieces(scene, axes, &result.counts);
   Framebuffer& frame = result.image;
   frame.width = scene.width;
   frame.height = scene.height;
@@ -82,10 +82,10 @@ Result render(const Scene& scene, const Image& image, bool measureDepth) {
 
   for (std::size_t index = 0; index < all.size(); ++index) {
     const Piece& piece = all[index];
-    Depth depth(piece, image.interpolate);
+    Depth depth(piece, axes.interpolate);
     const Range rows = coveredRows(piece, frame.height);
     for (std::int64_t j = rows.first; j <= rows.last; ++j) {
-      const Range columns = coveredColumns(piece, image.fill, j, frame.width);
+      const Range columns = coveredColumns(piece, axes.fill, j, frame.width);
       for (std::int64_t i = columns.first; i <= columns.last; ++i) {
         const float z = depth.at(i, j);
         const std::size_t k = static_cast<std::size_t>(j) * frame.width + static_cast<std::size_t>(i);
@@ -100,7 +100,7 @@ Result render(const Scene& scene, const Image& image, bool measureDepth) {
     }
   }
   if (measureDepth) measure(result, all, winner);
-  if (scene.attribute() != nullptr) interpolate(scene, image, frame);
+  if (scene.attribute() != nullptr) interpolate(scene, axes, frame);
   return result;
 }
 

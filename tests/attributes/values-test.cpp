@@ -14,7 +14,7 @@
 #include "tests/support/streams.h"
 
 using namespace tessera;
-using reference::Fill, reference::Image;
+using reference::Fill, reference::ImageAxes;
 
 namespace {
 
@@ -95,7 +95,7 @@ TEST_CASE("The error of a raster of values is that of its values", "[attributes]
 }
 
 PLACE_TEST_CASE("A height field of integer vertices has each vertex' value at its pixel", "[attributes]") {
-  const Image cells{.fill = Fill::kInclusive, .subPixelBits = 0};
+  const ImageAxes cells{.fill = Fill::kInclusive, .subPixelBits = 0};
   for (const auto& [columns, rows] : {std::pair{64u, 64u}, {97u, 31u}, {2u, 200u}, {333u, 5u}}) {
     const Scene scene = heightField(columns, rows);
     INFO(columns << " x " << rows);

@@ -21,7 +21,7 @@ Sweep read(const Desk& desk, const std::string& rest, const std::string& top = "
 
 std::vector<std::string> namesOf(const Sweep& sweep) {
   std::vector<std::string> names;
-  for (const Cell& cell : cells(sweep)) names.push_back(cellName(sweep, cell));
+  for (const SweepPoint& cell : cells(sweep)) names.push_back(cellName(sweep, cell));
   return names;
 }
 
@@ -74,7 +74,7 @@ TEST_CASE("The reference and its twin stand where the reference's values are") {
       name = variantName(sweep, all[i]);
     }
     CHECK(references == 4);
-    CHECK(static_cast<std::size_t>(std::ranges::count_if(all, &Cell::twin)) == references);
+    CHECK(static_cast<std::size_t>(std::ranges::count_if(all, &SweepPoint::twin)) == references);
     return name;
   };
   CHECK(referenceOf("") == "tile=8 edge=int32");

@@ -11,15 +11,15 @@
 #include "tests/reference/in-pixels.h"
 
 using namespace tessera;
-using reference::Fill, reference::Image, reference::Interpolate, reference::Piece;
+using reference::Fill, reference::ImageAxes, reference::Interpolate, reference::Piece;
 
 namespace {
 
 constexpr double kUnit = 0x1p-24;  // largest relative error of one rounding
 
 std::vector<std::string> picture(const std::vector<PixelVertex>& vertices, const std::vector<Triangle>& triangles,
-                                 const Image& image) {
-  const Framebuffer frame = reference::render(inPixels(8, 4, vertices, triangles), image).image;
+                                 const ImageAxes& axes) {
+  const Framebuffer frame = reference::render(inPixels(8, 4, vertices, triangles), axes).image;
   std::vector<std::string> rows(frame.height, std::string(frame.width, '.'));
   for (std::size_t k = 0; k < frame.pixels(); ++k)
     if (frame.hits[k]) rows[k / frame.width][k % frame.width] = static_cast<char>('0' + frame.hits[k]);
@@ -84,7 +84,7 @@ Errors checkBounds(const Scene& scene) {
 }  // namespace
 
 TEST_CASE("inclusive fill covers each sample of an edge from both sides and the whole outline") {
-  const Image inclusive{.fill = Fill::kInclusive};
+  const ImageAxes inclusive{.fill = Fill::kInclusive};
   const std::vector<PixelVertex> corners{{1.5f, 0.5f}, {4.5f, 0.5f}, {4.5f, 3.5f}, {1.5f, 3.5f}};
   CHECK(picture(corners, {{0, 1, 2}, {0, 2, 3}}, inclusive) ==
         std::vector<std::string>{".2111...", ".1211...", ".1121...", ".1112..."});
@@ -110,7 +110,7 @@ TEST_CASE("inclusive fill is each edge function at least 0") {
       v.push_back({static_cast<float>(x) / static_cast<float>(step), static_cast<float>(y) / static_cast<float>(step)});
     }
     const Scene scene = inPixels(kSize, kSize, v, {{0, 1, 2}});
-    const Image image{.fill = Fill::kInclusive, .subPixelBits = std::array{0, 4, 6, 8}[round / 2 % 4]};
+    const ImageAxes image{.fill = Fill::kInclusive, .subPixelBits = std::array{0, 4, 6, 8}[round / 2 % 4]};
     const auto pieces = reference::pieces(scene, image);
     if (pieces.empty()) continue;
     const auto result = reference::render(scene, image);
@@ -155,7 +155,7 @@ TEST_CASE("without sub-pixel bits vertices lie on samples") {
 }
 
 TEST_CASE("without sub-pixel bits inclusive fill covers the pixels of the corners") {
-  const Image image{.fill = Fill::kInclusive, .subPixelBits = 0};
+  const ImageAxes image{.fill = Fill::kInclusive, .subPixelBits = 0};
   // (1, 0), (5, 0) and (1, 2) as integer vertices; anywhere within their pixels is the same.
   const std::vector<std::string> expected{".11111..", ".111....", ".1......", "........"};
   CHECK(picture({{1.5f, 0.5f}, {5.5f, 0.5f}, {1.5f, 2.5f}}, {{0, 1, 2}}, image) == expected);
@@ -235,10 +235,10 @@ TEST_CASE("interpolation has the stated bits in each way") {
 }
 
 TEST_CASE("a variant's image axes are the oracle's") {
-  CHECK(imageOf({}).cull == reference::Cull::kNone);
-  CHECK(imageOf({}).fill == Fill::kTopLeft);
-  CHECK(imageOf({}).interpolate == Interpolate::kCellPlane);
-  CHECK(imageOf({}).subPixelBits == 8);
-  CHECK(imageOf({{"cull", "back"}}).cull == reference::Cull::kBack);
-  CHECK(imageOf({{"cull", "front"}}).cull == reference::Cull::kFront);
+  CHECK(imageAxesOf({}).cull == reference::Cull::kNone);
+  CHECK(imageAxesOf({}).fill == Fill::kTopLeft);
+  CHECK(imageAxesOf({}).interpolate == Interpolate::kCellPlane);
+  CHECK(imageAxesOf({}).subPixelBits == 8);
+  CHECK(imageAxesOf({{"cull", "back"}}).cull == reference::Cull::kBack);
+  CHECK(imageAxesOf({{"cull", "front"}}).cull == reference::Cull::kFront);
 }

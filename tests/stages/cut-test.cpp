@@ -73,7 +73,7 @@ TEST_CASE("Bands count what was dropped once, by facing too", "[cut]") {
   for (const char* cull : {"back", "front"}) {
     const Variant variant{{"cull", cull}};
     INFO(variant.text());
-    const reference::Result oracle = reference::render(scene, imageOf(variant));
+    const reference::Result oracle = reference::render(scene, imageAxesOf(variant));
     CHECK(oracle.counts.facing > 0);
     const Frame frame = cut.render(scene, variant);
     CHECK(frame.counters.at("bands") > 1);

@@ -33,7 +33,7 @@ enum class Interpolate {
 };
 /// The axes that define the image. When an axis of variant.h gains a value that defines the image, the value joins
 /// here.
-struct Image {
+struct ImageAxes {
   Cull cull = Cull::kNone;                            ///< the axis `cull`
   Fill fill = Fill::kTopLeft;                         ///< the axis `fill`
   Interpolate interpolate = Interpolate::kCellPlane;  ///< the axis `interpolate`
@@ -76,14 +76,14 @@ struct Result {
 std::vector<glm::vec4> transform(const Scene& scene);
 /// The pieces of all triangles, in the order of ids, by the contract's sections Clip, Project, Snap and Orient. Where
 /// `counts` is not null, it gets all counts but Counts::covered.
-std::vector<Piece> pieces(const Scene& scene, const Image& image, Counts* counts = nullptr);
+std::vector<Piece> pieces(const Scene& scene, const ImageAxes& axes, Counts* counts = nullptr);
 /// The image of the scene by the contract. With `measureDepth`, which is slower, depthMaxAbs and depthMaxUlp are
 /// filled, too.
-Result render(const Scene& scene, const Image& image = {}, bool measureDepth = false);
+Result render(const Scene& scene, const ImageAxes& axes = {}, bool measureDepth = false);
 
 /// Fills the channels of a frame that has ids: one channel for each stream of the scene that is interpolated, by the
 /// contract and in its float32 order. The new channels replace frame.channels.
-void interpolate(const Scene& scene, const Image& image, Framebuffer& frame);
+void interpolate(const Scene& scene, const ImageAxes& axes, Framebuffer& frame);
 
 /// The error of the attribute's values A, over the pixels of a frame that show a triangle with finite values, and over
 /// all streams that are interpolated, in the streams' units:
@@ -99,6 +99,6 @@ struct AttributeError {
   std::uint64_t pixels = 0;  ///< how many pixels were measured
 };
 /// Measures the attribute of a frame, which any device may have rendered. The frame has to hold ids and attribute.
-AttributeError attributeError(const Scene& scene, const Image& image, const Framebuffer& frame);
+AttributeError attributeError(const Scene& scene, const ImageAxes& axes, const Framebuffer& frame);
 
 }  // namespace tessera::reference
