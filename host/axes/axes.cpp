@@ -33,10 +33,15 @@ std::string traversal(std::string_view file, std::string_view name) {
 }
 
 constexpr bool kTypes = true;
-constexpr Needs kWord64{.int64 = true, .atomicMin64 = true};
+constexpr Needs kWord64{.int64 = true, .atomicMin64 = true}, kGroupWord64{.int64 = true, .groupAtomicMin64 = true};
 constexpr CommitTraits kColours{.resolves = true, .keepsColours = true, .keepsIds = false};
 // Rows of cells, their cells, and the lanes of each cell.
 constexpr LoopBound kOneWalk{.perCell = 3, .perRow = 2, .fixed = 3};
+// Of a round of 64 entries: rows and columns of tiny and thin pieces, the list of their samples, the bounds of cells. Of
+// an entry: its cells on the list, and their pixels.
+constexpr LoopBound kShapes{.perCell = 6, .perRow = 4, .fixed = 12, .once = 700};
+// The list is written, counted into buckets and read again.
+constexpr LoopBound kSorting{.fixed = 2, .once = 1000};
 // The same, and the walks that find the cells before.
 constexpr LoopBound kThreeWalks{.perCell = 7, .perRow = 10, .fixed = 9};
 const Stages kSetup{"setup"}, kVertex{"transform", "project", "setup"}, kRaster{"raster-tiles", "raster-items"};
@@ -207,6 +212,7 @@ std::vector<Axis> binAxes() {
 
 std::vector<Axis> rasterAxes() {
   const std::string int64 = include("edge.int64"), float32 = include("float32_edge");
+  const std::string pieceByPiece = type("TileWalk", "size_class.pieces", "WalkPieces");
   return {
       {"commit",
        "where a covered sample goes",
@@ -269,14 +275,71 @@ std::vector<Axis> rasterAxes() {
          CommitTraits{.wantsBins = true, .keepsIds = false}}},
        "tile-owned; with binning=none depth32+id32, or two-pass where the device has no 64-bit atomics",
        kTypes},
+      {"tile-word",
+       "how group memory keeps a pixel of a tile",
+       "Laine and Karras, HPG 2011",
+       {"raster-tiles"},
+       {{"split", "depth and id in two arrays", type("TileWord", "tile_word.split", "TileWordSplit")},
+        {"packed",
+         "one 64-bit word, depth above id; the smaller wins",
+         type("TileWord", "tile_word.packed", "TileWordPacked"),
+         kImplementation,
+         {.int64 = true}}},
+       "split; packed with size-class=shape",
+       kTypes},
       {"size-class",
        "whether micro, middle and large pieces take different walks",
        "",
        kRaster,
-       {{"off", "every piece is traversed", type("SizeClass", "size_class.off", "SizeClassOff")},
+       {{"off", "every piece is traversed", pieceByPiece + type("SizeClass", "size_class.off", "SizeClassOff")},
         {"on", "one cell: tested at once; a covered rectangle of cells: filled; the others: traversed",
-         type("SizeClass", "size_class.on", "SizeClassOn")}},
-       "off",
+         pieceByPiece + type("SizeClass", "size_class.on", "SizeClassOn")},
+        {"shape",
+         "tiny and thin pieces: a lane is a piece, then a sample; the others as under on",
+         include("size_class.shape_round") + include("size_class.shape_walks") + include("size_class.shape_cells") +
+             type("TileWalk", "size_class.shape", "WalkShapes") + type("SizeClass", "size_class.on", "SizeClassOn"),
+         kImplementation,
+         kGroupWord64,
+         "Laine and Karras, High-performance software rasterization on GPUs, HPG 2011",
+         "",
+         kShapes}},
+       "shape where a group is one thread, off elsewhere",
+       kTypes},
+      {"lane-width",
+       "lanes that a CPU's vector has, where kernels are written in lanes",
+       "",
+       {"raster-tiles"},
+       {{"native", "as many as the processor's vectors hold: 16 with AVX-512, 8 with AVX2, else 4", ""},
+        {"4", "4, as SSE4.1 and NEON have", "", kImplementation, {.oneThreadGroups = true}},
+        {"8", "8, as AVX2 has", "", kImplementation, {.oneThreadGroups = true}},
+        {"16", "16, as AVX-512 has", "", kImplementation, {.oneThreadGroups = true}}},
+       "native",
+       kTypes},
+      {"hidden",
+       "whether a tile rejects by depth what cannot be seen",
+       "Greene, Kass and Miller, Hierarchical Z-buffer visibility, SIGGRAPH 1993",
+       {"raster-tiles"},
+       {{"off", "each piece is drawn", type("Hidden", "hidden.off", "HiddenOff")},
+        {"tile", "pieces behind the farthest pixel of the tile are not drawn",
+         flag("kHiddenCells", false) + type("Hidden", "hidden.bounds", "HiddenBounds")},
+        {"cell", "nor are pieces and parts of them behind the farthest pixel of a cell",
+         flag("kHiddenCells", true) + type("Hidden", "hidden.bounds", "HiddenBounds")}},
+       "off; cell with size-class=shape",
+       kTypes},
+      {"order",
+       "in which order a tile takes its pieces",
+       "",
+       {"raster-tiles"},
+       {{"as-binned", "as they stand in the bin", type("Order", "order.as_binned", "OrderAsBinned")},
+        {"nearest-first",
+         "by their nearest vertex, where a tile has at most 512",
+         type("Order", "order.nearest_first", "OrderNearestFirst"),
+         kImplementation,
+         {},
+         "",
+         "",
+         kSorting}},
+       "nearest-first with size-class=shape where a group is one thread, as-binned elsewhere",
        kTypes},
       {"traversal",
        "which cells of its bounding box a piece visits, and in which order",
@@ -419,6 +482,20 @@ const std::vector<AxisRule>& axisRules() {
        {"id", "flat"},
        "it keeps one colour a triangle, made before raster"},
       {"commit", {"count"}, "shade", {"none"}, "it keeps no ids to shade"},
+      {"tile-word", {}, "commit", {"tile-owned"}, "only a group that owns its tile keeps it in group memory"},
+      {"size-class",
+       {"shape"},
+       "binning",
+       {"aabb-scan", "queue", "exact", "bitmask"},
+       "it takes the pieces of a tile in rounds, and binning=none has no tiles"},
+      {"size-class", {"shape"}, "commit", {"tile-owned"}, "its samples go into the words of a tile"},
+      {"size-class", {"shape"}, "tile-word", {"packed"}, "lanes that are samples meet in one word"},
+      {"edge", {}, "size-class", {"off", "on"}, "shape has exact edges of its own"},
+      {"step", {}, "size-class", {"off", "on"}, "shape steps from piece to cell to pixel"},
+      {"traversal", {}, "size-class", {"off", "on"}, "shape walks cells in its own way"},
+      {"interpolate", {"plane", "weights"}, "size-class", {"off", "on"}, "shape has the plane of the cell"},
+      {"lane-width", {}, "size-class", {"shape"}, "no other kernel is written in lanes"},
+      {"hidden", {"tile", "cell"}, "size-class", {"shape"}, "bounds are kept from round to round of shapes"},
       {"step",
        {"incremental"},
        "edge",

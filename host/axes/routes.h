@@ -4,6 +4,7 @@
 #include <tessera/kernel.h>
 #include <tessera/variant.h>
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,6 +13,10 @@ namespace tessera {
 
 /// The compiler that reads what slangc wrote.
 enum class SecondCompiler { kNone, kCxx, kGlslang };
+
+/// Bytes of group memory where a group is one thread. The memory lies on the thread's stack, which has more; a core's
+/// cache of the second level has this much at least.
+inline constexpr std::uint64_t kThreadGroupBytes = 256 << 10;
 
 struct RouteInfo {
   Route route;

@@ -60,8 +60,18 @@ const CommitTraits& commitTraits(std::string_view commit) {
   return std::get<CommitTraits>(axisValue("commit", commit).traits);
 }
 
-const LoopBound& loopBound(std::string_view traversal) {
-  return std::get<LoopBound>(axisValue("traversal", traversal).traits);
+LoopBound loopBound(const Variant& resolved) {
+  LoopBound sum;
+  for (const Axis& axis : axes()) {
+    if (axis.values.empty() || !resolved.has(axis.name)) continue;
+    if (const auto* bound = std::get_if<LoopBound>(&axisValue(axis.name, resolved.get(axis.name)).traits)) {
+      sum.perCell += bound->perCell;
+      sum.perRow += bound->perRow;
+      sum.fixed += bound->fixed;
+      sum.once += bound->once;
+    }
+  }
+  return sum;
 }
 
 Variant::Variant(std::initializer_list<std::pair<std::string_view, std::string_view>> settings) {
@@ -126,8 +136,10 @@ VariantModules variantModules(std::string_view stage, const Variant& resolved) {
                          "// Generated: the types that this stage is made of.\nmodule variant;\n"};
   std::string& text = modules.settings;
   for (const Axis& a : axes())
-    if (std::ranges::find(a.stages, stage) != a.stages.end())
+    if (std::ranges::find(a.stages, stage) != a.stages.end()) {
+      if (a.name == "lane-width" && !resolved.is(a.name, "native")) modules.laneWidth = resolved.number(a.name);
       (a.types ? modules.variant : text) += axisValue(a.name, resolved.get(a.name)).slang;
+    }
   text += fmt::format("public static const int kCounterCount = {};\n", kernelCounterCount());
   for (std::size_t i = 0; i < kernelCounterCount(); ++i) {
     std::string name = counterDocs()[i].name;

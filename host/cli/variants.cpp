@@ -30,6 +30,7 @@ std::string devicesText(const AxisValue& value) {
   if (value.needs.int64) needs.emplace_back("64-bit integers");
   if (value.needs.float64) needs.emplace_back("64-bit floats");
   if (value.needs.atomicMin64) needs.emplace_back("64-bit atomics");
+  if (value.needs.groupAtomicMin64) needs.emplace_back("64-bit atomics in group memory");
   const std::string with = needs.empty() ? "" : fmt::format(" with {}", fmt::join(needs, " and "));
   return fmt::format("{}{}", fmt::join(kinds, ", "), with);
 }

@@ -14,8 +14,8 @@ constexpr std::uint64_t kMaxRange = 0x7fffffff;  // kernels add a range to where
 std::uint64_t entryRange(const Settings& settings, const Bins& bins, const DeviceInfo& device) {
   const std::uint64_t across = settings.tile / kCell, cells = across * across;
   // Three walks over the tile's cells with the loop over lanes of each: to clear the tile, to load it and to store it.
-  const std::uint64_t fixed = 9 * cells + 16;
   const LoopBound& loops = settings.loops;
+  const std::uint64_t fixed = 9 * cells + 16 + loops.once;
   const std::uint64_t each = loops.perCell * cells + loops.perRow * across + loops.fixed;
   const std::uint64_t range = std::max<std::uint64_t>(loopsBeyond(fixed, device) / each, 1);
   return std::max(range / bins.rangeStep(), std::uint64_t{1}) * bins.rangeStep();

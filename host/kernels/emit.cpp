@@ -21,6 +21,7 @@ DeviceInfo machine(const char* name, Route route = Route::kSpirv) {
   device.name = name;
   for (const RouteInfo& other : routes())
     if (other.spirv == routeInfo(route).spirv) device.routes.push_back(other.name);
+  if (routeInfo(route).oneThreadGroups) device.maxGroupBytes = kThreadGroupBytes;
   return device;
 }
 
@@ -28,7 +29,7 @@ DeviceInfo machine(const char* name, Route route = Route::kSpirv) {
 /// (maxComputeWorkgroupStorageSize).
 DeviceInfo webgpu() {
   DeviceInfo device = machine("WGSL");
-  device.int64 = device.float64 = device.atomicMin64 = false;
+  device.int64 = device.float64 = device.atomicMin64 = device.groupAtomicMin64 = false;
   device.maxGroupBytes = 16384;
   return device;
 }

@@ -139,7 +139,9 @@ struct KernelCache::State {
       add(fs::absolute(path).lexically_normal().lexically_relative(settings.slangSources).string()), add(text);
     add(settings.glslang.version);
     if (routeInfo(request.route).then == SecondCompiler::kCxx) {
-      add(atomicsText(settings.slangSources));
+      add(machineText(settings.slangSources,
+                      std::ranges::any_of(sources, [](const auto& source) { return usesLanes(source.second); }),
+                      request.modules.laneWidth));
       add(settings.cxx.version);
       add(settings.cxx.targetMacros);
       for (const std::string& flag : cxxBaseFlags()) add(flag);

@@ -123,7 +123,7 @@ std::vector<std::string> slangCommand(const KernelRequest& request, const ToolIn
 void compileCpp(const KernelRequest& request, const CompileSettings& settings, const std::string& generated,
                 const fs::path& work) {
   const fs::path source = work / "kernel.cpp", made = work / routeInfo(request.route).binary;
-  writeInto(source, (settings.boundsChecks ? kBoundsChecks : "") + atomicsText(settings.slangSources) + generated);
+  writeInto(source, (settings.boundsChecks ? kBoundsChecks : "") + machineText(settings.slangSources, usesLanes(generated), request.modules.laneWidth) + generated);
   std::vector<std::string> arguments{settings.cxx.path.string()};
   append(arguments, cxxBaseFlags());
   append(arguments, settings.cxxFlags);
@@ -229,7 +229,8 @@ Written writtenBySlang(const KernelRequest& request, const std::string& target, 
   try {
     runCompiler(request, slangCommand(request, slangc, slangSources, flags, work.path(), made), made);
     const bool cxx = route.then == SecondCompiler::kCxx;
-    std::string text = (cxx ? atomicsText(slangSources) : "") + readText(made);
+    std::string text = readText(made);
+    if (cxx) text = machineText(slangSources, usesLanes(text), request.modules.laneWidth) + text;
     // WGSL reserves this word (W3C, WebGPU Shading Language, section 16.2).
     if (target == "wgsl") text = std::regex_replace(text, std::regex(R"(\battribute\b)"), "attribute_0");
     return {std::move(text), readText(reflection)};

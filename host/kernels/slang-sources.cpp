@@ -68,9 +68,13 @@ std::vector<fs::path> searchFolders(const fs::path& root) {
   return folders;
 }
 
-std::string atomicsText(const fs::path& root) {
-  const fs::path header = root / "machine/atomics-cpp.h";
-  return fs::exists(header) ? readText(header) : "";
+bool usesLanes(std::string_view text) { return text.find("tessera::") != text.npos; }
+
+std::string machineText(const fs::path& root, bool lanes, unsigned laneWidth) {
+  std::string text = lanes && laneWidth ? fmt::format("#define TESSERA_LANES {}\n", laneWidth) : "";
+  for (const char* const name : {"machine/atomics-cpp.h", lanes ? "machine/lanes-cpp.h" : ""})
+    if (const fs::path header = root / name; *name && fs::exists(header)) text += readText(header);
+  return text;
 }
 
 std::string readText(const fs::path& path, ExitCode refusal) {

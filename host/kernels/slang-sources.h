@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace tessera {
@@ -22,9 +23,13 @@ std::map<std::filesystem::path, std::string> slangSources(const std::filesystem:
                                                           const std::filesystem::path& entry,
                                                           const std::string& generated);
 
-/// The C++ text that stands ahead of what slangc writes in C++: machine/atomics-cpp.h under `root`, or "" where that
-/// file does not exist. Throws as readText() does.
-std::string atomicsText(const std::filesystem::path& root);
+/// Whether a text of Slang, or the C++ that slangc writes from it, names the lane types of machine/lanes-cpp.h.
+bool usesLanes(std::string_view text);
+
+/// The C++ text that stands ahead of what slangc writes in C++: machine/atomics-cpp.h under `root`. Where `lanes` is set
+/// also machine/lanes-cpp.h, for vectors of `laneWidth` lanes (0: as wide as the processor's). A file that does not exist
+/// is left out. Throws as readText() does.
+std::string machineText(const std::filesystem::path& root, bool lanes, unsigned laneWidth);
 
 /// Whole file. Throws `refusal` if the name leads to no file or to one that may not be read: kUsage is right where a
 /// user named it. kFailure for a shortage.

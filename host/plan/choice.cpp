@@ -18,6 +18,8 @@ std::optional<std::string> missingNeed(const AxisValue& value, const DeviceInfo&
   if (needs.int64 && !device.int64) return device.name + " has no 64-bit integers (shaderInt64)";
   if (needs.atomicMin64 && !device.atomicMin64)
     return device.name + " has no 64-bit atomic min on buffers (shaderBufferInt64Atomics)";
+  if (needs.groupAtomicMin64 && !device.groupAtomicMin64)
+    return device.name + " has no 64-bit atomic min in group memory (shaderSharedInt64Atomics)";
   return std::nullopt;
 }
 

@@ -9,6 +9,7 @@
 #include <iterator>
 #include <memory>
 
+#include "host/axes/routes.h"
 #include "host/plan/choice.h"
 #include "host/plan/needs.h"
 #include "host/plan/plan-scene.h"
@@ -61,8 +62,9 @@ class Planner {
     const bool loose = !commit.empty() && !commitTraits(commit).wantsBins;
     bins_ = binsOf_(loose ? choice_.take("binning", {"none", "exact", "queue"})
                           : choice_.take("binning", {"exact", "queue", "none"}));
+    choice_.take("size-class", sizeClasses());
     std::uint64_t largest = kBlock;
-    while (largest > 8 && tileOwnedBytes(largest) > device_.maxGroupBytes) largest /= 2;
+    while (largest > 8 && tileBytes(largest) > device_.maxGroupBytes) largest /= 2;
     const double tile = std::stoi(choice_.take("tile", {std::to_string(largest)}));
     const BinsLoad load{.tiles = std::ceil(scene_.width / tile) * std::ceil(scene_.height / tile),
                         .triangles = double(scene_.triangles.size())};
@@ -77,7 +79,7 @@ class Planner {
     const std::string commit = bins_->byTiles() ? choice_.take("commit", {"tile-owned", "depth32+id32", "two-pass"})
                                                 : choice_.take("commit", {"depth32+id32", "two-pass"});
     const CommitTraits& traits = commitTraits(commit);
-    const std::uint64_t groupMemory = tileOwnedBytes(choice_.resolved().number("tile"));
+    const std::uint64_t groupMemory = tileBytes(choice_.resolved().number("tile"));
     if (traits.writesTiles && groupMemory > device_.maxGroupBytes)
       failUnsupported(fmt::format("tile={}: {} takes {} bytes of group memory, {} has {}; set a smaller tile",
                                   choice_.resolved().get("tile"), commit, groupMemory, device_.name,
@@ -88,15 +90,31 @@ class Planner {
           "commit=depth32+id32 or two-pass",
           commit, std::log2(double(traits.mostTriangles) + 1), traits.mostTriangles, scene_.triangles.size()));
     choice_.take("edge", {"int32"});
-    choice_.take("size-class", {"off"});
+    choice_.take("tile-word", {"split", "packed"});
+    choice_.take("lane-width", {"native"});
+    choice_.take("hidden", {"cell", "off"});
+    choice_.take("order", {byShape() && oneThreadGroups() ? "nearest-first" : "as-binned"});
     choice_.take("traversal", {"cell-reject"});
     choice_.take("step", {"direct"});
     choice_.take("interpolate", {"cell-plane"});
     choice_.take("counters", {"basic"});
   }
 
-  /// Depth and id of each pixel.
-  static std::uint64_t tileOwnedBytes(std::uint64_t tile) { return tile * tile * 8; }
+  bool oneThreadGroups() const { return routeNamed(choice_.resolved().get("route")).oneThreadGroups; }
+
+  /// Measured on CPUs, where shapes are ahead on every scene (experiments/lanes). A GPU may want either.
+  std::vector<std::string> sizeClasses() const {
+    return oneThreadGroups() ? std::vector<std::string>{"shape", "off"} : std::vector<std::string>{"off", "shape"};
+  }
+  bool byShape() const { return choice_.resolved().is("size-class", "shape"); }
+
+  /// Group memory of a tile that its group owns, at most: depth and id of each pixel; for size-class=shape a round of
+  /// pieces and a list of samples, and the bounds of cells; for order=nearest-first the lists that are sorted.
+  std::uint64_t tileBytes(std::uint64_t tile) const {
+    const std::uint64_t round = 64 * 4 * (38 + std::max<std::uint64_t>(2 * tile, 24)) + 1024;
+    const bool sorts = asked_.is("order", "nearest-first") || (byShape() && oneThreadGroups());
+    return tile * tile * 8 + (byShape() ? round : 0) + (sorts ? 7424 : 0);
+  }
 
   void shading() {
     const bool flatIsFit = !scene_.positions.empty() || scene_.triangles.empty();

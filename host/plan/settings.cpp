@@ -15,7 +15,7 @@ Settings settingsOf(const Variant& resolved) {
           .betweenSamples = resolved.isOn("between-samples"),
           .compact = resolved.isOn("compact"),
           .commit = commitTraits(resolved.get("commit")),
-          .loops = loopBound(resolved.get("traversal")),
+          .loops = loopBound(resolved),
           .cull = resolved.get("cull"),
           .shade = resolved.get("shade")};
 }

@@ -19,7 +19,7 @@ struct Settings {
   Overflow overflow = Overflow::kRetry;
   bool clip = true, perspective = true, betweenSamples = true, compact = false;
   CommitTraits commit;
-  LoopBound loops;  ///< the loop bound of the traversal
+  LoopBound loops;  ///< of the walk over the entries of a tile
   std::string cull, shade;
 };
 

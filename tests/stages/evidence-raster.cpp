@@ -28,6 +28,30 @@ bool hasCapability(const Variant& variant, std::uint32_t capability) {
 }
 std::vector<float> depthOf(const Variant& variant) { return on(sphere(), variant).image.depth; }
 
+/// 32 squares over all of one tile, the farthest first.
+Frame layers(const std::string& settings) {
+  Scene scene;
+  scene.width = scene.height = 64;
+  for (int layer = 0; layer < 32; ++layer) {
+    const float z = 0.9f - 0.02f * float(layer);
+    const auto first = static_cast<std::uint32_t>(scene.clip.size());
+    for (const auto& [x, y] : {std::pair{-1.0f, -1.0f}, {1.0f, -1.0f}, {1.0f, 1.0f}, {-1.0f, 1.0f}})
+      scene.clip.emplace_back(x, y, z, 1.0f);
+    scene.triangles.push_back({first, first + 1, first + 2});
+    scene.triangles.push_back({first, first + 2, first + 3});
+  }
+  return on(scene, Variant(settings));
+}
+
+/// What the C++ text of a raster kernel says of its vectors.
+int lanesAtOnce(const std::string& width) {
+  Variant variant("size-class=shape");
+  variant.set("lane-width", width);
+  const VariantModules modules =
+      kernelRequest("raster-tiles", makePlan(Scene{}, variant, machineAt<Cpu>()->device().info())).modules;
+  return modules.laneWidth ? int(modules.laneWidth) : 16;
+}
+
 const Evidence kEvidence{
     {"wide",
      {{"native", [] { CHECK(hasCapability({{"wide", "native"}}, 11)); }},  // Int64
@@ -125,7 +149,35 @@ const Evidence kEvidence{
          const Frame on_ = on(sphere(), {{"size-class", "on"}}), off = on(sphere(), {{"size-class", "off"}});
          CHECK(count(on_, "looks") < count(off, "looks"));
          CHECK(count(on_, "tests") > count(off, "tests"));
+       }},
+      {"shape",
+       [] {
+         // A tiny triangle tries the samples of its box, and not those of a cell.
+         const Frame shape = on(sphere(), {{"size-class", "shape"}, {"hidden", "off"}}), off = on(sphere(), {{"size-class", "off"}});
+         CHECK(4 * count(shape, "tests") < count(off, "tests"));
+         CHECK(count(shape, "covered") == count(off, "covered"));
+         CHECK(count(shape, "visited") == count(off, "visited"));
        }}}},
+    {"tile-word",
+     {{"split", [] { CHECK(!hasCapability({{"tile-word", "split"}, {"wide", "two-word"}}, 11)); }},  // Int64
+      {"packed", [] { CHECK(hasCapability({{"tile-word", "packed"}, {"wide", "two-word"}}, 11)); }}}},
+    {"lane-width",
+     {{"native", [] { CHECK(lanesAtOnce("native") >= 4); }},
+      {"4", [] { CHECK(lanesAtOnce("4") == 4); }},
+      {"8", [] { CHECK(lanesAtOnce("8") == 8); }},
+      {"16", [] { CHECK(lanesAtOnce("16") == 16); }}}},
+    {"hidden",
+     {{"off", [] { CHECK(count(layers("hidden=off"), "covered") == 32 * 64 * 64); }},
+      {"tile", [] { CHECK(count(layers("hidden=tile order=nearest-first"), "covered") < 20 * 64 * 64); }},
+      {"cell",
+       [] {
+         CHECK(count(layers("hidden=cell order=nearest-first"), "covered") <= 64 * 64);
+         CHECK(difference(layers("hidden=cell order=nearest-first"), layers("size-class=off")) == "");
+       }}}},
+    {"order",
+     // The layers come from back to front, so as they are binned none hides what follows.
+     {{"as-binned", [] { CHECK(count(layers("hidden=cell order=as-binned"), "covered") == 32 * 64 * 64); }},
+      {"nearest-first", [] { CHECK(count(layers("hidden=cell order=nearest-first"), "covered") <= 64 * 64); }}}},
     {"step",
      // One triangle over all 8 rows of cells of each tile: an evaluation a cell, or one a row.
      {{"direct",

@@ -15,6 +15,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "host/axes/routes.h"
 #include "host/devices/cpu/crew.h"
 #include "host/devices/kernel-fault.h"
 #include "host/devices/kinds.h"
@@ -161,6 +162,7 @@ class CpuDevice final : public Device {
     info_.name = processorName();
     info_.driver = cpuDriverText();
     info_.threads = crew_->threads();
+    info_.maxGroupBytes = kThreadGroupBytes;
     info_.timeClock = "wall";
   }
 

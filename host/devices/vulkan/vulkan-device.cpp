@@ -53,6 +53,7 @@ DeviceInfo describe(const Adapter& adapter) {
   info.int64 = adapter.features.shaderInt64;
   info.float64 = adapter.features.shaderFloat64;
   info.atomicMin64 = info.int64 && adapter.features12.shaderBufferInt64Atomics;
+  info.groupAtomicMin64 = info.int64 && adapter.features12.shaderSharedInt64Atomics;
   info.maxBufferBytes = std::min<std::uint64_t>(limits.maxStorageBufferRange, maintenance3.maxMemoryAllocationSize);
   // lavapipe 22.3 stops an invocation after 65,535 iterations of its loops together, without an error. Elsewhere the
   // bound keeps one dispatch well below the seconds after which a desktop's watchdog resets the GPU.

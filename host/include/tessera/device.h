@@ -24,6 +24,7 @@ struct DeviceInfo {
   bool int64 = true;                     ///< 64-bit integers in kernels
   bool float64 = true;                   ///< 64-bit floats in kernels
   bool atomicMin64 = true;               ///< 64-bit atomic min on storage buffers
+  bool groupAtomicMin64 = true;          ///< 64-bit atomic min in group memory
   std::uint64_t maxBufferBytes = ~0ull;  ///< largest storage buffer that a kernel can bind
   std::uint32_t maxLoopIterations =
       ~0u;  ///< per invocation, over all its loops; lavapipe 22.3 drops what is beyond 65,535

@@ -25,6 +25,7 @@ struct Needs {
   bool int64 = false;        ///< needs 64-bit integers (DeviceInfo::int64)
   bool float64 = false;      ///< needs 64-bit floats (DeviceInfo::float64)
   bool atomicMin64 = false;  ///< needs 64-bit atomic min on buffers (DeviceInfo::atomicMin64)
+  bool groupAtomicMin64 = false;  ///< needs 64-bit atomic min in group memory (DeviceInfo::groupAtomicMin64)
   /// Needs groups of one thread each, which loops over the group's lanes. A lane can then wait for a lane of another
   /// group, and the wait ends.
   bool oneThreadGroups = false;
@@ -41,15 +42,16 @@ struct CommitTraits {
   std::uint64_t mostTriangles = ~0ull;  ///< how many triangles it can tell apart
 };
 
-/// How many iterations a lane of the raster takes for one entry of its tile. In a tile that is `across` cells wide
+/// How many iterations a lane of the raster takes for the entries of its tile. In a tile that is `across` cells wide
 ///
-///     iterations <= perCell * across * across + perRow * across + fixed
+///     iterations <= (perCell * across * across + perRow * across + fixed) * entries + once
 ///
 /// A loop of n passes counts n + 1 iterations, since its last test counts, too.
 struct LoopBound {
   std::uint64_t perCell = 0;  ///< iterations for each cell
   std::uint64_t perRow = 0;   ///< iterations for each row of cells
   std::uint64_t fixed = 0;    ///< iterations for each entry
+  std::uint64_t once = 0;     ///< iterations for each dispatch
 };
 
 /// One value of an axis.
@@ -61,7 +63,7 @@ struct AxisValue {
   Needs needs = {};                           ///< what the value needs of a device
   std::string source = {};                    ///< paper or specification, where it is not Axis::source
   std::string limits = {};                    ///< such as the bound of the error or the largest scene, in one line
-  std::variant<std::monostate, CommitTraits, LoopBound> traits = {};  ///< of a value of `commit`, or of `traversal`
+  std::variant<std::monostate, CommitTraits, LoopBound> traits = {};  ///< of a value of `commit`, or of one that the walk over entries takes
 };
 
 /// One axis: what can be done in more than one way.
@@ -90,8 +92,6 @@ const Axis& axis(std::string_view name);
 const AxisValue& axisValue(std::string_view axis, std::string_view value);
 /// The traits of a value of the axis `commit`.
 const CommitTraits& commitTraits(std::string_view commit);
-/// The loop bound of a value of the axis `traversal`.
-const LoopBound& loopBound(std::string_view traversal);
 
 /// Values of one axis that go only with some values of another axis.
 struct AxisRule {
@@ -134,6 +134,9 @@ class Variant {
   std::map<std::string, std::string> values_;
 };
 
+/// The loop bounds of the values of a resolved variant, added up.
+LoopBound loopBound(const Variant& resolved);
+
 /// Whether a value of the variant, set or resolved, has an error that has to be measured.
 bool isApproximate(const Variant& variant);
 
@@ -142,6 +145,7 @@ struct VariantModules {
   std::string
       settings;         ///< text of settings.slang: constants, and what the lowest modules are made of; imports nothing
   std::string variant;  ///< text of variant.slang: the chosen types; for each a file fulfils an interface
+  unsigned laneWidth = 0;  ///< lanes of a vector of slang/machine/lanes.slang in C++; 0: the processor's own
   std::string text() const { return settings + variant; }  ///< the two texts, one after the other
   /// Compares the texts.
   auto operator<=>(const VariantModules&) const = default;
