@@ -14,9 +14,9 @@ namespace {
 constexpr std::size_t kMaxValues = 1000;
 
 const Axis& axisOf(const TomlTable& table, const toml::key& key) {
-  const auto found = std::ranges::find(axes(), key.str(), &Axis::name);
-  if (found == axes().end())
-    table.refuseKey(key, fmt::format("no such axis; {}", whatThereIs(key.str(), namesOf(axes(), &Axis::name))));
+  const auto found = std::ranges::find(allAxes(), key.str(), &Axis::name);
+  if (found == allAxes().end())
+    table.refuseKey(key, fmt::format("no such axis; {}", whatThereIs(key.str(), namesOf(allAxes(), &Axis::name))));
   return *found;
 }
 

@@ -151,7 +151,7 @@ std::string commandText(const Command& parts) {
   std::string command = fmt::format("tessera render {} --size {}x{} --device {}", quoted(parts.input), parts.size.width,
                                     parts.size.height, quoted(parts.device));
   if (parts.threads != 0) command += fmt::format(" --threads {}", parts.threads);
-  for (const Axis& axis : axes())
+  for (const Axis& axis : allAxes())
     if (const auto found = parts.labels.find(axis.name); found != parts.labels.end())
       command += " --set " + quoted(axis.name + "=" + found->second);
   for (const auto& [name, value] : parts.labels)

@@ -138,7 +138,7 @@ double checkCell(Run& run, std::size_t number, const CheckTools& tools) {
   Rasterizer rasterizer(tools.device, tools.kernels);
   Frame frame;
   run.variant = asked;
-  tools.frame([&] { frame = measure(run, rasterizer, tools.kernels, 0); });
+  tools.frame([&] { frame = measureRun(run, rasterizer, tools.kernels, 0); });
   run.peakBufferBytes = tools.device.peakBufferBytes();
   Framebuffer& image = frame.image;
 

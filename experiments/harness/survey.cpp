@@ -37,7 +37,7 @@ using KernelKey = std::tuple<std::string, std::filesystem::path, Route, VariantM
 
 std::string imageText(const Variant& resolved) {
   std::string text;
-  for (const Axis& axis : axes())
+  for (const Axis& axis : allAxes())
     if (axis.kind() == AxisKind::kImage) text += resolved.get(axis.name) + ' ';
   return text;
 }

@@ -309,7 +309,7 @@ Variant readReference(const TomlTable& top, const Sweep& sweep) {
 Variant readTruth(const TomlTable& top) {
   const TomlTable table = section(top, "truth");
   std::vector<std::string> names;
-  for (const Axis& axis : axes())
+  for (const Axis& axis : allAxes())
     if (axis.kind() == AxisKind::kImage && axis.name != "shade")
       names.push_back(axis.name);  // the oracle has no colours
   for (const TomlTable::Entry& entry : table.entries())

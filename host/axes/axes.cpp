@@ -451,7 +451,7 @@ std::vector<Axis> rasterAxes() {
 
 }  // namespace
 
-const std::vector<Axis>& axes() {
+const std::vector<Axis>& allAxes() {
   static const std::vector<Axis> list = [] {
     std::vector<Axis> all = vertexAxes();
     for (auto* more : {&binAxes, &rasterAxes})

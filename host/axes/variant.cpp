@@ -43,9 +43,9 @@ AxisKind Axis::kind() const {
 }
 
 const Axis& axis(std::string_view name) {
-  const auto found = std::ranges::find(axes(), name, &Axis::name);
-  if (found != axes().end()) return *found;
-  failUsage(fmt::format("--set {}: no such axis; {}", name, whatThereIs(name, namesOf(axes(), &Axis::name))));
+  const auto found = std::ranges::find(allAxes(), name, &Axis::name);
+  if (found != allAxes().end()) return *found;
+  failUsage(fmt::format("--set {}: no such axis; {}", name, whatThereIs(name, namesOf(allAxes(), &Axis::name))));
 }
 
 const AxisValue& axisValue(std::string_view axisName, std::string_view name) {
@@ -62,7 +62,7 @@ const CommitTraits& commitTraits(std::string_view commit) {
 
 LoopBound loopBound(const Variant& resolved) {
   LoopBound sum;
-  for (const Axis& axis : axes()) {
+  for (const Axis& axis : allAxes()) {
     if (axis.values.empty() || !resolved.has(axis.name)) continue;
     if (const auto* bound = std::get_if<LoopBound>(&axisValue(axis.name, resolved.get(axis.name)).traits)) {
       sum.perCell += bound->perCell;
@@ -119,7 +119,7 @@ bool Variant::is(std::string_view name, std::string_view value) const {
 
 std::string Variant::text() const {
   std::vector<std::string> parts;
-  for (const Axis& a : axes())
+  for (const Axis& a : allAxes())
     if (has(a.name)) parts.push_back(a.name + "=" + get(a.name));
   return fmt::format("{}", fmt::join(parts, " "));
 }
@@ -135,7 +135,7 @@ VariantModules variantModules(std::string_view stage, const Variant& resolved) {
   VariantModules modules{"// Generated: the settings of this stage.\nmodule settings;\n",
                          "// Generated: the types that this stage is made of.\nmodule variant;\n"};
   std::string& text = modules.settings;
-  for (const Axis& a : axes())
+  for (const Axis& a : allAxes())
     if (std::ranges::find(a.stages, stage) != a.stages.end()) {
       if (a.name == "lane-width" && !resolved.is(a.name, "native")) modules.laneWidth = resolved.number(a.name);
       (a.types ? modules.variant : text) += axisValue(a.name, resolved.get(a.name)).slang;

@@ -27,7 +27,7 @@ Candidates axisSettings(const std::string& word) {
   const std::string before = upTo(word, ", "), setting = word.substr(before.size());
   const std::size_t equals = setting.find('=');
   Candidates all;
-  for (const Axis& axis : axes()) {
+  for (const Axis& axis : allAxes()) {
     if (equals == setting.npos) all.push_back({before + axis.name + "=", axis.meaning});
     if (equals == setting.npos || axis.name != setting.substr(0, equals)) continue;
     for (const AxisValue& value : axis.values) all.push_back({before + axis.name + "=" + value.name, value.meaning});

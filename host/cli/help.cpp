@@ -67,7 +67,7 @@ std::string twoColumns(std::string_view left, std::string_view text, unsigned co
 
 std::string axesHelp(unsigned columns) {
   std::string text = heading("AXIS=VALUE of --set ('tessera variants' says more)").substr(1);
-  for (const Axis& axis : axes())
+  for (const Axis& axis : allAxes())
     text += twoColumns(axis.name,
                        axis.values.empty() ? fmt::format("{} to {}", axis.least, axis.most)
                                            : fmt::format("{}", fmt::join(namesOf(axis.values, &AxisValue::name), ", ")),

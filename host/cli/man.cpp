@@ -78,7 +78,7 @@ std::string manualPage(const CLI::App& app) {
   for (const GeneratorDoc& doc : generatorDocs())
     text += entry(fmt::format("generate:{}?KEY=VALUE&KEY=VALUE", doc.name), doc.makes + ". " + doc.parameters);
   text += section("AXES") + paragraphs("What --set takes. An axis that is not set is the plan's choice.");
-  for (const Axis& axis : axes())
+  for (const Axis& axis : allAxes())
     text +=
         entry(axis.name, fmt::format("{}: {}. When not set: {}.", axis.meaning,
                                      axis.values.empty()

@@ -62,7 +62,7 @@ std::string noOption(const CLI::App& command, const std::string& typed, const st
     for (const auto& part : option->get_snames()) names.push_back("-" + part);
   }
   std::string close = meant(name, names);
-  const std::vector<std::string> axisNames = namesOf(axes(), &Axis::name);
+  const std::vector<std::string> axisNames = namesOf(allAxes(), &Axis::name);
   const auto axis = std::ranges::find(axisNames, name.substr(std::min(name.find_first_not_of('-'), name.size())));
   if (axis != axisNames.end() && takes(command, "--set")) close = fmt::format("--set {}=VALUE", *axis);
   return fmt::format("{}no option {}; {}'{} --help' lists them", place, name,

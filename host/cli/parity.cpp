@@ -137,7 +137,7 @@ class Parity {
     try {
       outcome.probe = probeDevice(device, kernels_, routeOf(run.device, attempt.variant));
       Rasterizer rasterizer(device, kernels_);
-      const Framebuffer image = measure(run, rasterizer, kernels_, options_.repeat).image;
+      const Framebuffer image = measureRun(run, rasterizer, kernels_, options_.repeat).image;
       run.peakBufferBytes = device.peakBufferBytes();
       run.difference = oracle.against(image);
       if (!oracle.holdsColours())

@@ -81,7 +81,7 @@ Framebuffer renderFrames(const RenderOptions& options, Device& device, KernelCac
 
   Rasterizer rasterizer(device, kernels);
   Progress progress("render", options.repeat + 1);
-  Frame frame = measure(run, rasterizer, kernels, options.repeat, [&](unsigned done) {
+  Frame frame = measureRun(run, rasterizer, kernels, options.repeat, [&](unsigned done) {
     if (done == 1 && !options.outputs.empty())
       finishLoadingImages();  // or the frames that are timed would share the cores with it
     progress.at(done);

@@ -58,7 +58,7 @@ const std::string& sourceOf(const Axis& axis, const AxisValue& value) {
 
 std::string axesJson() {
   auto json = nlohmann::ordered_json::array();
-  for (const auto& axis : axes()) {
+  for (const auto& axis : allAxes()) {
     nlohmann::ordered_json entry{{"name", axis.name},
                                  {"meaning", axis.meaning},
                                  {"source", axis.source},
@@ -80,7 +80,7 @@ std::string axesJson() {
 
 std::string axesMarkdown() {
   std::string text;
-  for (const auto& axis : axes()) {
+  for (const auto& axis : allAxes()) {
     text += fmt::format("## {}\n{}. When not set: {}.", axis.name, axis.meaning, axis.unset);
     if (!axis.stages.empty()) text += fmt::format(" Read by {}.", fmt::join(axis.stages, ", "));
     for (const std::string& rule : rulesText(axis, "")) text += fmt::format(" It {}.", rule);
@@ -100,7 +100,7 @@ std::string axesMarkdown() {
 
 std::string axesText() {
   std::string text;
-  for (const auto& axis : axes()) {
+  for (const auto& axis : allAxes()) {
     text += fmt::format("{}: {}\n", axis.name, axis.meaning);
     if (axis.values.empty()) text += fmt::format("  {}\n", rangeText(axis));
     for (const auto& value : axis.values) {

@@ -64,8 +64,8 @@ Run beginRun(const Scene& scene, const Variant& variant, const Device& device, c
   return run;
 }
 
-Frame measure(Run& run, Rasterizer& rasterizer, KernelCache& kernels, unsigned repeat,
-              const std::function<void(unsigned)>& progress) {
+Frame measureRun(Run& run, Rasterizer& rasterizer, KernelCache& kernels, unsigned repeat,
+                 const std::function<void(unsigned)>& progress) {
   const Variant asked = run.variant;
   Frame first = rasterizer.render(*run.scene, asked);
   run.variant = first.plan.resolved;

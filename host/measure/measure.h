@@ -23,8 +23,8 @@ Run beginRun(const Scene& scene, const Variant& variant, const Device& device, c
 
 /// Renders run.scene under run.variant and fills `run`: one frame that warms up (buffers grow, drivers compile), which
 /// is returned, then `repeat` timed ones; `progress` hears how many frames are done.
-Frame measure(Run& run, Rasterizer& rasterizer, KernelCache& kernels, unsigned repeat,
-              const std::function<void(unsigned)>& progress = {});
+Frame measureRun(Run& run, Rasterizer& rasterizer, KernelCache& kernels, unsigned repeat,
+                 const std::function<void(unsigned)>& progress = {});
 
 /// What a frame tells of its own error, in `run`: hits under commit=count, the attribute's error from its exact value.
 void measureError(Run& run, const Framebuffer& image);

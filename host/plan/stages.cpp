@@ -66,7 +66,7 @@ KernelRequest kernelRequest(std::string_view name, const Plan& plan) {
   request.entry = stage.entry;
   request.route = routeNamed(plan.resolved.get("route")).route;
   request.modules = variantModules(name, plan.resolved);
-  for (const Axis& axis : axes())
+  for (const Axis& axis : allAxes())
     if (std::ranges::find(axis.stages, name) != axis.stages.end())
       request.variantName += (request.variantName.empty() ? "" : " ") + axis.name + "=" + plan.resolved.get(axis.name);
   return request;

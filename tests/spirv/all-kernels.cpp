@@ -53,7 +53,7 @@ std::vector<KernelRequest> kernelsOf(const Stage& stage, Route route, std::size_
   if (stage.name == "attribute") attributeOf(scene).assign(scene.vertexCount(), 1.0f);
   Variant base = settingFor(stage.name);
   std::vector<AxisValues> axesRead;
-  for (const Axis& a : axes())
+  for (const Axis& a : allAxes())
     if (std::ranges::count(a.stages, stage.name) && !base.has(a.name)) {
       axesRead.emplace_back(a.name, std::vector<std::string>{});
       for (const AxisValue& value : a.values) axesRead.back().second.push_back(value.name);

@@ -55,7 +55,7 @@ TEST_CASE("every value of an axis that a stage reads is in a kernel of it") {
         CHECK(kernel.route == route);
         for (const std::string& setting : settingsOf(kernel)) seen.insert(setting);
       }
-      for (const Axis& axis : axes()) {
+      for (const Axis& axis : allAxes()) {
         if (!std::ranges::count(axis.stages, stage.name)) continue;
         for (const AxisValue& value : axis.values) {
           const std::string setting = axis.name + "=" + value.name;

@@ -83,7 +83,7 @@ std::vector<std::string> valueNames(const Axis& axis) {
 }  // namespace
 
 TEST_CASE("Each axis value is seen at work", "[axes]") {
-  for (const Axis& axis : axes())
+  for (const Axis& axis : allAxes())
     for (const std::string& value : valueNames(axis)) {
       INFO(axis.name << "=" << value);
       evidence(axis.name, value)();
@@ -92,7 +92,7 @@ TEST_CASE("Each axis value is seen at work", "[axes]") {
 
 TEST_CASE("Each value of an axis that kernels read has kernels of its own", "[axes]") {
   KernelCache cache;
-  for (const Axis& axis : axes()) {
+  for (const Axis& axis : allAxes()) {
     std::map<std::string, std::map<std::string, std::vector<std::uint32_t>>> kernels;  // by value, by stage
     for (const std::string& stage : axis.stages)
       for (const AxisValue& value : axis.values)
@@ -131,7 +131,7 @@ TEST_CASE("A stage's kernel is keyed by the axes that it reads alone", "[axes]")
   for (const Stage& stage : stages()) {
     const auto base = planWith(stage.name, "route", "spirv");
     REQUIRE(base);
-    for (const Axis& axis : axes()) {
+    for (const Axis& axis : allAxes()) {
       std::set<std::string> modules, texts;
       for (const AxisValue& value : axis.values) {
         Plan plan = *base;  // as given, without asking whether the planner would

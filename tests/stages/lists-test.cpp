@@ -79,7 +79,7 @@ TEST_CASE("Every stage and every buffer of the lists has a name of its own and a
   }
   CHECK(count(Extent::kScanGroups, value) == 3);
   CHECK(count(Extent::kValues, value) == 3 * 64 * 100);
-  for (const Axis& axis : axes())
+  for (const Axis& axis : allAxes())
     for (const std::string& stage : axis.stages) CHECK(messageOf([&] { stageOf(stage); }) == "");
 }
 

@@ -33,7 +33,7 @@ std::vector<std::string> losslessValues(const Axis& axis) {
 
 std::vector<std::string> implementationAxes() {
   std::vector<std::string> names;
-  for (const Axis& axis : axes()) {
+  for (const Axis& axis : allAxes()) {
     const bool planners = axis.name == "clip" || axis.name == "projection", places = axis.name == "route",
                output = axis.name == "counters";
     if (!planners && !places && !output && losslessValues(axis).size() > 1) names.push_back(axis.name);

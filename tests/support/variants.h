@@ -1,4 +1,4 @@
-// Variants to test, made from axes(): an axis or value that is added there is tested from then on.
+// Variants to test, made from allAxes(): an axis or value that is added there is tested from then on.
 #pragma once
 
 #include <tessera/plan.h>

@@ -84,7 +84,7 @@ struct Axis {
 };
 
 /// All axes, in pipeline order.
-const std::vector<Axis>& axes();
+const std::vector<Axis>& allAxes();
 /// The axis `name`. Throws kUsage where no axis has this name; the message names the axes.
 const Axis& axis(std::string_view name);
 /// The value `value` of an axis whose values have names. Throws kUsage where the axis has no such value; the message
