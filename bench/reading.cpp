@@ -152,7 +152,7 @@ void normals(benchmark::State& state) {
 }  // namespace tessera
 
 int main(int argc, char** argv) {
-  const tessera::TemporaryFolder folder(std::filesystem::temp_directory_path(), "bench-reading");
+  const tessera::support::TemporaryFolder folder(std::filesystem::temp_directory_path(), "bench-reading");
   for (const tessera::Case& one : tessera::kCases)
     benchmark::RegisterBenchmark(
         ("read:" + one.name).c_str(),

@@ -81,6 +81,6 @@ int main(int argc, char** argv) {
   }
   std::vector<std::vector<std::string>> rows{{"command", "wall, ms", "processor, ms", "bar, ms"}};
   for (const auto& job : jobs) rows.push_back({job.name, quartiles(job.wall), quartiles(job.processor), job.bar});
-  fmt::print("{}{} rounds in turns; median (quartiles)\n", tessera::table(rows), rounds);
+  fmt::print("{}{} rounds in turns; median (quartiles)\n", tessera::support::table(rows), rounds);
   for (const char* const extension : {".png", ".exr"}) std::filesystem::remove(picture + extension);
 }

@@ -45,7 +45,7 @@ int runSuite(const char* program, int argc, char** argv, const std::function<voi
   benchmark::Shutdown();
   return 0;
 } catch (const Error& error) {
-  say(stderr, "{}: {}\n", program, error.what());
+  support::say(stderr, "{}: {}\n", program, error.what());
   return static_cast<int>(error.code());
 }
 

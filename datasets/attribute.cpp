@@ -8,7 +8,7 @@
 namespace tessera {
 
 void failAttribute(const std::string& place, const std::string& name, const std::vector<std::string>& present) {
-  failUsage(fmt::format("{}: no attribute '{}'; {}", place, name, whatThereIs(name, present)));
+  failUsage(fmt::format("{}: no attribute '{}'; {}", place, name, support::whatThereIs(name, present)));
 }
 
 }  // namespace tessera

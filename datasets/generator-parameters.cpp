@@ -38,9 +38,9 @@ ParsedGenerator parseGenerator(std::string_view spec) {
   const auto& all = generators();
   const auto found = std::ranges::find(all, name, &Generator::name);
   if (found == all.end()) {
-    const auto names = namesOf(all, &Generator::name);
+    const auto names = support::namesOf(all, &Generator::name);
     if (name.empty()) failUsage(fmt::format("generate: of what? There are {}", fmt::join(names, ", ")));
-    failUsage(fmt::format("generate:{}: no such generator; {}", name, whatThereIs(name, names)));
+    failUsage(fmt::format("generate:{}: no such generator; {}", name, support::whatThereIs(name, names)));
   }
   ParsedGenerator parsed{&*found, {}};
   for (const auto& p : found->parameters) parsed.values.push_back(p.initial);
@@ -52,9 +52,9 @@ ParsedGenerator parseGenerator(std::string_view spec) {
     const std::size_t equals = setting.find('=');
     const auto parameter = std::ranges::find(found->parameters, setting.substr(0, equals), &GeneratorParameter::name);
     if (parameter == found->parameters.end()) {
-      const auto names = namesOf(found->parameters, &GeneratorParameter::name);
+      const auto names = support::namesOf(found->parameters, &GeneratorParameter::name);
       failUsage(fmt::format("generate:{}: no parameter '{}'; {}", name, setting.substr(0, equals),
-                            whatThereIs(setting.substr(0, equals), names)));
+                            support::whatThereIs(setting.substr(0, equals), names)));
     }
     if (equals == setting.npos)
       failUsage(fmt::format("generate:{}: '{}' has no value; {}=VALUE of {} would be right", name, setting, setting,

@@ -33,7 +33,7 @@ std::vector<fs::path> inputFiles(const std::string& input) {
   const fs::path path = input;
   std::vector<fs::path> files{path};
   std::error_code error;
-  if (lowerCase(path.extension().string()) != ".toml" || !fs::is_regular_file(path, error)) return files;
+  if (support::lowerCase(path.extension().string()) != ".toml" || !fs::is_regular_file(path, error)) return files;
   try {
     addSources(toml::parse_file(path.string()), path.parent_path(), files);
   } catch (const toml::parse_error&) {

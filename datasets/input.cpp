@@ -40,7 +40,7 @@ Scene loadInput(const std::string& input, std::uint32_t width, std::uint32_t hei
                 const ReadProgress& progress) {
   const std::filesystem::path path = input;
   const bool generated = input.starts_with(kGenerate), installed = input.starts_with(kInstalledMesh);
-  const std::string extension = generated || installed ? "" : lowerCase(path.extension().string());
+  const std::string extension = generated || installed ? "" : support::lowerCase(path.extension().string());
   Scene scene;
   setSize(scene, width, height);
   if (extension == ".toml") return readSceneFile(path, width, height, attribute, progress);
@@ -48,7 +48,7 @@ Scene loadInput(const std::string& input, std::uint32_t width, std::uint32_t hei
     scene = readReplay(path);
     setSize(scene, width, height);
     if (!attribute.name.empty() && scene.stream(attribute.name) == nullptr)
-      failAttribute(input, attribute.name, namesOf(scene.streams, &Stream::name));
+      failAttribute(input, attribute.name, support::namesOf(scene.streams, &Stream::name));
     return scene;
   }
   scene.name = generated   ? input.substr(kGenerate.size())

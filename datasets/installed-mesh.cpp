@@ -24,7 +24,7 @@ constexpr const char* kArchive = "/usr/share/doc/libcgal-demo/data.tar.gz";
 
 /// Whether the archive has given this file since the package was installed. What is no file is made anew.
 bool isFresh(const fs::path& file) {
-  checkOwn(file);
+  support::checkOwn(file);
   std::error_code error;
   if (!fs::is_regular_file(file, error)) return false;
   const auto written = fs::last_write_time(file, error);
@@ -36,19 +36,19 @@ bool isFresh(const fs::path& file) {
 std::vector<std::string> installedMeshes() {
   std::error_code error;
   if (!fs::is_regular_file(kArchive, error)) return {};
-  const fs::path folder = defaultCacheFolder() / "meshes", list = folder / "names";
+  const fs::path folder = support::defaultCacheFolder() / "meshes", list = folder / "names";
   std::string members;
   if (isFresh(list)) {
     members = readFile(list);
   } else {
-    const fs::path tar = findProgram("tar");
+    const fs::path tar = support::findProgram("tar");
     if (tar.empty()) return {};
-    const ProcessResult result = runProcess({tar.string(), "-tzf", kArchive});
+    const support::ProcessResult result = support::runProcess({tar.string(), "-tzf", kArchive});
     if (!result.ok()) return {};
     members = result.output;
     try {
-      makeOwnFolder(folder);
-      writeOwn(list, members);
+      support::makeOwnFolder(folder);
+      support::writeOwn(list, members);
     } catch (const std::system_error&) {
       // where it cannot be kept it is listed again
     }
@@ -78,31 +78,31 @@ fs::path installedMesh(std::string_view name) {
                           archive.string()));
   if (name.empty()) failUsage(fmt::format("mesh: of what name? There are {}", fmt::join(installedMeshes(), ", ")));
   if (!plain) failUsage(fmt::format("mesh:{}: not a name; one such as mesh:refined_elephant would be right", name));
-  const fs::path folder = defaultCacheFolder() / "meshes", mesh = folder / fmt::format("{}.off", name);
-  checkOwn(folder);
+  const fs::path folder = support::defaultCacheFolder() / "meshes", mesh = folder / fmt::format("{}.off", name);
+  support::checkOwn(folder);
   if (isFresh(mesh)) return mesh;
 
-  const fs::path tar = findProgram("tar");
+  const fs::path tar = support::findProgram("tar");
   if (tar.empty()) failUsage(fmt::format("mesh:{}: tar, which unpacks it, is not in PATH", name));
   // Beside its name and renamed: others may unpack it at the same time.
-  const TemporaryFolder work = [&] {
+  const support::TemporaryFolder work = [&] {
     try {
-      makeOwnFolder(folder);
+      support::makeOwnFolder(folder);
     } catch (const std::system_error& problem) {
-      throw Error(codeOf(problem.code().value()),
+      throw Error(support::codeOf(problem.code().value()),
                   fmt::format("{}: cannot be made: {}; a TESSERA_CACHE that can be written would do", folder.string(),
                               problem.code().message()));
     }
-    return TemporaryFolder(folder, "unpacked");
+    return support::TemporaryFolder(folder, "unpacked");
   }();
   const std::string member = fmt::format("data/meshes/{}.off", name);
-  const ProcessResult result =
-      runProcess({tar.string(), "-xzf", archive.string(), "-C", work.path().string(), "--touch", "--", member});
-  if (!result.ok()) checkWritten(work.path(), result.output);
+  const support::ProcessResult result = support::runProcess(
+      {tar.string(), "-xzf", archive.string(), "-C", work.path().string(), "--touch", "--", member});
+  if (!result.ok()) support::checkWritten(work.path(), result.output);
   if (!result.ok()) {
     const auto names = installedMeshes();
     if (std::ranges::find(names, name) == names.end()) {
-      const std::string close = nearest(name, names);
+      const std::string close = support::nearest(name, names);
       failUsage(fmt::format("mesh:{}: no such mesh; {}'tessera meshes' lists the {} there are", name,
                             close.empty() ? "" : fmt::format("did you mean mesh:{}? ", close), names.size()));
     }
@@ -110,10 +110,10 @@ fs::path installedMesh(std::string_view name) {
         fmt::format("mesh:{}: {} could not be taken out of {}: {}", name, member, archive.string(), result.output));
   }
   try {
-    makeOwn(work.path() / member);
-    replaceOwn(work.path() / member, mesh);
+    support::makeOwn(work.path() / member);
+    support::replaceOwn(work.path() / member, mesh);
   } catch (const std::system_error& problem) {
-    throw Error(codeOf(problem.code().value()),
+    throw Error(support::codeOf(problem.code().value()),
                 fmt::format("{}: cannot be written: {}", mesh.string(), problem.code().message()));
   }
   return mesh;

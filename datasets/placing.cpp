@@ -13,13 +13,13 @@
 namespace tessera {
 namespace {
 
-Matrix rounded(const DoubleMatrix& m) {
+Matrix rounded(const support::DoubleMatrix& m) {
   Matrix result;
   std::ranges::transform(m, result.begin(), [](double value) { return static_cast<float>(value); });
   return result;
 }
 
-glm::dvec3 transformed(const DoubleMatrix& m, const glm::dvec3& p) {
+glm::dvec3 transformed(const support::DoubleMatrix& m, const glm::dvec3& p) {
   const auto row = [&](std::size_t r) { return ((m[r] * p.x + m[r + 1] * p.y) + m[r + 2] * p.z) + m[r + 3]; };
   return {row(0), row(4), row(8)};
 }
@@ -38,9 +38,10 @@ Box boxOf(const std::vector<bool>& drawn, const std::vector<glm::dvec3>& positio
 
 /// ((m0 x + m1 y) + m2 z) + m3 in float32, of coordinates that begin at the mesh's own origin: the matrix from there to
 /// the scene's is worked out in double and rounded once.
-std::vector<glm::vec3> positionsByMatrix(const std::vector<glm::dvec3>& positions, const DoubleMatrix& worldFromMesh,
-                                         const glm::dvec3& own, const glm::dvec3& origin) {
-  DoubleMatrix m = worldFromMesh;
+std::vector<glm::vec3> positionsByMatrix(const std::vector<glm::dvec3>& positions,
+                                         const support::DoubleMatrix& worldFromMesh, const glm::dvec3& own,
+                                         const glm::dvec3& origin) {
+  support::DoubleMatrix m = worldFromMesh;
   if (own != glm::dvec3(0) || origin != glm::dvec3(0)) {  // or -0 would become 0
     const glm::dvec3 to = transformed(worldFromMesh, own) - origin;
     m[3] = to.x, m[7] = to.y, m[11] = to.z;
@@ -57,7 +58,7 @@ std::vector<glm::vec3> positionsByMatrix(const std::vector<glm::dvec3>& position
 }
 
 /// By the inverse transpose of the matrix in float32.
-void turnNormals(std::vector<glm::vec3>& normals, const DoubleMatrix& matrix) {
+void turnNormals(std::vector<glm::vec3>& normals, const support::DoubleMatrix& matrix) {
   // The cofactor matrix: the inverse transpose times the determinant, there even where a matrix flattens. Its sign is
   // taken out, so that normals stay on their side under a reflection.
   const auto row = [&](std::size_t r) { return glm::dvec3(glm::vec3(matrix[r], matrix[r + 1], matrix[r + 2])); };
@@ -108,8 +109,8 @@ void placeMeshes(Scene& scene, std::vector<PlacedMesh> meshes, const AttributeRe
   }
 }
 
-Matrix clipFromPositions(const DoubleMatrix& clipFromInput, const glm::dvec3& origin) {
-  return rounded(translated(clipFromInput, origin));
+Matrix clipFromPositions(const support::DoubleMatrix& clipFromInput, const glm::dvec3& origin) {
+  return rounded(support::translated(clipFromInput, origin));
 }
 
 }  // namespace tessera

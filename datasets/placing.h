@@ -13,7 +13,7 @@ namespace tessera {
 struct PlacedMesh {
   std::string name;  ///< for messages
   Mesh mesh;
-  std::optional<DoubleMatrix> worldFromMesh;  ///< its last row is 0, 0, 0, 1
+  std::optional<support::DoubleMatrix> worldFromMesh;  ///< its last row is 0, 0, 0, 1
 };
 
 /// append() of a mesh whose vertices are already where they belong in the scene.
@@ -23,6 +23,6 @@ void placeMeshes(Scene& scene, std::vector<PlacedMesh> meshes, const AttributeRe
 
 /// Rounds a matrix to clip space from the input's coordinates, for the scene's positions: M translate(origin), in
 /// double.
-Matrix clipFromPositions(const DoubleMatrix& clipFromInput, const glm::dvec3& origin);
+Matrix clipFromPositions(const support::DoubleMatrix& clipFromInput, const glm::dvec3& origin);
 
 }  // namespace tessera

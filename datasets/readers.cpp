@@ -12,7 +12,7 @@ namespace tessera {
 Mesh readMeshAsItIs(const std::filesystem::path& path, const AttributeRequest& attribute,
                     const ReadProgress& progress) {
   const std::string name = path.string();
-  const std::string extension = lowerCase(path.extension().string());
+  const std::string extension = support::lowerCase(path.extension().string());
   const bool obj = extension == ".obj", off = extension == ".off", ply = extension == ".ply", stl = extension == ".stl";
   if (!obj && !off && !ply && !stl)
     failUsage(fmt::format("{}: unknown extension '{}'; .obj, .off, .ply or .stl would be right", name, extension));

@@ -127,7 +127,7 @@ void writeReplay(const std::filesystem::path& path, const Scene& scene) {
     for (const float value : stream->values) fmt::format_to(out, "{:08x}\n", std::bit_cast<std::uint32_t>(value));
   }
   fmt::format_to(out, "end\n");
-  writeWhole(path, {text.data(), text.size()});
+  support::writeWhole(path, {text.data(), text.size()});
 }
 
 Scene readReplay(const std::filesystem::path& path) {

@@ -17,12 +17,12 @@
 namespace tessera {
 namespace {
 
-constexpr DoubleMatrix kNoCamera{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+constexpr support::DoubleMatrix kNoCamera{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
 
-std::optional<DoubleMatrix> readMatrix(const TomlTable& table, std::string_view key) {
+std::optional<support::DoubleMatrix> readMatrix(const TomlTable& table, std::string_view key) {
   const auto values = table.numbers(key, 16);
   if (!values) return std::nullopt;
-  DoubleMatrix matrix;
+  support::DoubleMatrix matrix;
   for (std::size_t i = 0; i < 16; ++i) {
     matrix[i] = (*values)[i];
     if (!std::isfinite(static_cast<float>(matrix[i])))

@@ -23,7 +23,7 @@ class SceneHash {
   std::string hex() { return hash_.hex(); }
 
  private:
-  Sha256 hash_;
+  support::Sha256 hash_;
 };
 
 }  // namespace

@@ -215,7 +215,7 @@ Mesh readStl(InputFile& file, const ReadProgress& progress) {
   }
   const std::string_view text = plainText(file.name(), all);
   const std::size_t first = std::min(text.find_first_not_of(" \t\r\n\v\f"), text.size());
-  if (lowerCase(text.substr(first, 5)) == "solid" && text.find('\0') == text.npos)
+  if (support::lowerCase(text.substr(first, 5)) == "solid" && text.find('\0') == text.npos)
     return TextReader({file.name(), text, progress}).read();
   if (all.size() < kHeader)
     failUsage(

@@ -24,14 +24,14 @@ InputFile::InputFile(std::filesystem::path path) : path_(std::move(path)) {
   file_ = open(path_.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK);
   if (file_ < 0) {
     const int error = errno;
-    const std::string why = whyNoFile(path_);  // no file there, or a socket, which cannot be opened
-    fail(why.empty() ? causeOf(error) : why, codeOf(error));
+    const std::string why = support::whyNoFile(path_);  // no file there, or a socket, which cannot be opened
+    fail(why.empty() ? support::causeOf(error) : why, support::codeOf(error));
   }
   try {
     struct stat status {};
-    if (fstat(file_, &status) != 0) fail(causeOf(errno), codeOf(errno));
+    if (fstat(file_, &status) != 0) fail(support::causeOf(errno), support::codeOf(errno));
     const bool pipe = S_ISFIFO(status.st_mode), terminal = S_ISCHR(status.st_mode) && isatty(file_) == 1;
-    if (const std::string why = whyNoFile(status.st_mode); !why.empty() && !pipe && !terminal) fail(why);
+    if (const std::string why = support::whyNoFile(status.st_mode); !why.empty() && !pipe && !terminal) fail(why);
     if (S_ISREG(status.st_mode)) size_ = static_cast<std::uint64_t>(status.st_size);
     if (pipe) awaitWriter();
     fcntl(file_, F_SETFL, fcntl(file_, F_GETFL) & ~O_NONBLOCK);
@@ -48,9 +48,9 @@ void InputFile::fail(const std::string& cause, ExitCode code) const {
 }
 
 void InputFile::awaitWriter() {
-  const auto end = std::chrono::steady_clock::now() + kPipeTime;
+  const auto end = std::chrono::steady_clock::now() + support::kPipeTime;
   pollfd pipe{file_, POLLIN, 0};
-  for (auto now = end - kPipeTime; now < end; now = std::chrono::steady_clock::now()) {
+  for (auto now = end - support::kPipeTime; now < end; now = std::chrono::steady_clock::now()) {
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - now);
     if (poll(&pipe, 1, static_cast<int>(left.count())) > 0) return;  // bytes, or a writer that is gone
   }
@@ -59,7 +59,7 @@ void InputFile::awaitWriter() {
   const ssize_t got = ::read(file_, &byte, 1);
   if (got == 0)
     fail(fmt::format("is a pipe that nothing has opened to write to for {} s; start its writer first",
-                     kPipeTime.count()));
+                     support::kPipeTime.count()));
   if (got == 1) first_ = byte;
 }
 
@@ -72,7 +72,7 @@ std::size_t InputFile::read(char* into, std::size_t bytes) {
   while (all < bytes) {
     const ssize_t got = ::read(file_, into + all, bytes - all);
     if (got < 0 && errno == EINTR) continue;
-    if (got < 0) fail(causeOf(errno), codeOf(errno));
+    if (got < 0) fail(support::causeOf(errno), support::codeOf(errno));
     if (got == 0) break;
     all += static_cast<std::size_t>(got);
   }

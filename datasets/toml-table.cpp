@@ -36,8 +36,8 @@ TomlTable::TomlTable(const std::string& file, const toml::table& table, std::str
     : TomlTable(file, table, std::move(path)) {
   for (const auto& [key, node] : entries())
     if (std::ranges::find(keys, key.str()) == keys.end())
-      fail(key.source(),
-           fmt::format("{} has no key '{}'; {}", name, key.str(), whatThereIs(key.str(), {keys.begin(), keys.end()})));
+      fail(key.source(), fmt::format("{} has no key '{}'; {}", name, key.str(),
+                                     support::whatThereIs(key.str(), {keys.begin(), keys.end()})));
 }
 
 const toml::node& TomlTable::need(std::string_view key, std::string_view what) const {

@@ -62,7 +62,7 @@ Comparison compareScene(const BenchScene& what, const Options& options, Rasteriz
 void runAll(const Options& options) {
   // lavapipe reads it when it is loaded: as many threads as the CPU device has.
   setenv("LP_NUM_THREADS", std::to_string(options.threads).c_str(), 1);
-  if (!options.jsonFile.empty()) checkWhole(options.jsonFile);
+  if (!options.jsonFile.empty()) support::checkWhole(options.jsonFile);
   KernelCache kernels;
   const auto device = makeCpuDevice({.threads = options.threads});
   Rasterizer rasterizer(*device, kernels);
@@ -70,13 +70,13 @@ void runAll(const Options& options) {
   report.provenance = provenance(device->info(), kernels);
   for (const BenchScene& scene : scenes()) {
     if (!options.chosen.empty() && std::ranges::find(options.chosen, scene.name) == options.chosen.end()) continue;
-    say(stderr, "compare: {}, {} rounds\n", scene.name, options.rounds);
+    support::say(stderr, "compare: {}, {} rounds\n", scene.name, options.rounds);
     report.comparisons.push_back(compareScene(scene, options, rasterizer, report.drawDevice));
   }
   report.drawDevice += fmt::format(", LP_NUM_THREADS={}", options.threads);
   report.memory.push_back(measureMemory("sphere", options.size, options.threads));
-  say(stdout, "{}", text(report));
-  if (!options.jsonFile.empty()) writeWhole(options.jsonFile, json(report, options.raw));
+  support::say(stdout, "{}", text(report));
+  if (!options.jsonFile.empty()) support::writeWhole(options.jsonFile, json(report, options.raw));
 }
 
 }  // namespace
@@ -102,7 +102,7 @@ int main(int argc, char** argv) {
     if (options.memoryOf.empty()) runAll(options);
     else printMemory(options.memoryOf, options.size, options.threads);
   } catch (const Error& error) {
-    say(stderr, "compare: {}\n", error.what());
+    support::say(stderr, "compare: {}\n", error.what());
     return static_cast<int>(error.code());
   }
   return 0;

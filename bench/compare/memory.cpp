@@ -33,7 +33,7 @@ void printMemory(const std::string& name, std::uint32_t size, unsigned threads) 
 }
 
 Memory measureMemory(const std::string& scene, std::uint32_t size, unsigned threads) {
-  const ProcessResult result = runProcess(
+  const support::ProcessResult result = support::runProcess(
       {"/proc/self/exe", "--memory-of", scene, "--size", std::to_string(size), "--threads", std::to_string(threads)});
   Memory memory;
   memory.scene = scene;

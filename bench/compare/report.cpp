@@ -29,7 +29,9 @@ Spread ratio(const std::vector<std::uint64_t>& a, const std::vector<std::uint64_
   return {s.median / kScale, s.min / kScale, s.iqr / kScale};
 }
 
-std::string withSpread(const Spread& s) { return milliseconds(s.median) + " ±" + milliseconds(s.iqr / 2); }
+std::string withSpread(const Spread& s) {
+  return support::milliseconds(s.median) + " ±" + support::milliseconds(s.iqr / 2);
+}
 
 /// How far the same thing, measured twice in each round, lies apart from itself: half the IQR of the ratio, per cent.
 double noise(const Comparison& c) { return 100 * ratio(totals(c.again), totals(c.cpu)).iqr / 2; }
@@ -48,12 +50,13 @@ std::string text(const Report& report) {
   Rows times{{"scene", "triangles", "covered", "CPU device, ms", "draw, ms", "draw / CPU", "A/A", "noise %", "coverage differs", "id differs"}};
   for (const Comparison& c : report.comparisons) {
     const Spread faster = ratio(c.drawDevice, totals(c.cpu));
-    times.push_back({c.scene, grouped(c.triangles), grouped(c.covered), withSpread(totalSpread(c.cpu)), withSpread(spread(c.drawDevice)),
-                     fmt::format("{:.2f} ±{:.2f}", faster.median, faster.iqr / 2),
-                     fmt::format("{:.3f}", ratio(totals(c.again), totals(c.cpu)).median), fmt::format("{:.1f}", noise(c)),
-                     grouped(c.difference.coverage), grouped(c.difference.id)});
+    times.push_back(
+        {c.scene, support::grouped(c.triangles), support::grouped(c.covered), withSpread(totalSpread(c.cpu)),
+         withSpread(spread(c.drawDevice)), fmt::format("{:.2f} ±{:.2f}", faster.median, faster.iqr / 2),
+         fmt::format("{:.3f}", ratio(totals(c.again), totals(c.cpu)).median), fmt::format("{:.1f}", noise(c)),
+         support::grouped(c.difference.coverage), support::grouped(c.difference.id)});
   }
-  out += table(times);
+  out += support::table(times);
   if (!report.comparisons.empty())
     out += fmt::format("median ± half the interquartile range of {} rounds; A/A: the CPU device by itself, measured twice a round\n\n",
                        report.comparisons[0].cpu.size());
@@ -68,14 +71,14 @@ std::string text(const Report& report) {
     const auto medians = stageMedians(c.cpu);
     for (auto row = stages.begin() + 1; row != stages.end(); ++row) {
       const auto found = std::ranges::find(medians, (*row)[0], [](const auto& entry) { return entry.first; });
-      row->push_back(found == medians.end() ? "-" : milliseconds(found->second));
+      row->push_back(found == medians.end() ? "-" : support::milliseconds(found->second));
     }
   }
-  if (!report.comparisons.empty()) out += table(stages) + "\n";
+  if (!report.comparisons.empty()) out += support::table(stages) + "\n";
 
   Rows memory{{"memory of one frame, MB", "peak of the process", "peak of the device's buffers"}};
   for (const Memory& m : report.memory) memory.push_back({m.scene, megabytes(m.peakResident), megabytes(m.peakBuffers)});
-  return out + table(memory);
+  return out + support::table(memory);
 }
 
 std::string json(const Report& report, bool raw) {

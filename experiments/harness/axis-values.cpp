@@ -16,7 +16,8 @@ constexpr std::size_t kMaxValues = 1000;
 const Axis& axisOf(const TomlTable& table, const toml::key& key) {
   const auto found = std::ranges::find(allAxes(), key.str(), &Axis::name);
   if (found == allAxes().end())
-    table.refuseKey(key, fmt::format("no such axis; {}", whatThereIs(key.str(), namesOf(allAxes(), &Axis::name))));
+    table.refuseKey(key, fmt::format("no such axis; {}",
+                                     support::whatThereIs(key.str(), support::namesOf(allAxes(), &Axis::name))));
   return *found;
 }
 
@@ -38,7 +39,8 @@ std::string checkedValue(const TomlTable& table, const Axis& axis, const toml::n
   }
   if (std::ranges::find(axis.values, text, &AxisValue::name) == axis.values.end())
     table.refuse(axis.name, node,
-                 fmt::format("no value '{}'; {}", text, whatThereIs(text, namesOf(axis.values, &AxisValue::name))));
+                 fmt::format("no value '{}'; {}", text,
+                             support::whatThereIs(text, support::namesOf(axis.values, &AxisValue::name))));
   return text;
 }
 
@@ -99,14 +101,15 @@ std::vector<std::string> readChosen(const TomlTable& table, const TomlTable::Ent
   const std::string key(entry.key.str());
   const auto axis = std::ranges::find(swept, key, &SweptAxis::axis);
   if (axis == swept.end())
-    table.refuseKey(entry.key, swept.empty() ? "nothing varies; an axis under [axes] would be right"
-                                             : fmt::format("does not vary in this sweep; {}",
-                                                           whatThereIs(key, namesOf(swept, &SweptAxis::axis))));
+    table.refuseKey(entry.key, swept.empty()
+                                   ? "nothing varies; an axis under [axes] would be right"
+                                   : fmt::format("does not vary in this sweep; {}",
+                                                 support::whatThereIs(key, support::namesOf(swept, &SweptAxis::axis))));
   std::vector<std::string> values;
   const auto add = [&](const toml::node& node) {
     const std::string value = textOf(table, key, node);
     if (std::ranges::find(axis->values, value) == axis->values.end())
-      table.refuse(key, node, fmt::format("no cell has '{}'; {}", value, whatThereIs(value, axis->values)));
+      table.refuse(key, node, fmt::format("no cell has '{}'; {}", value, support::whatThereIs(value, axis->values)));
     addOnce(table, key, node, values, value);
   };
   if (!entry.node.is_array()) return add(entry.node), values;

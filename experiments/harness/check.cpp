@@ -46,14 +46,14 @@ Plan planOf(const Scene& scene, const Variant& asked, const DeviceInfo& device, 
 }
 
 std::string mismatches(const Difference& d) {
-  std::string text = fmt::format("differs from the oracle: of {} pixels", grouped(d.pixels));
+  std::string text = fmt::format("differs from the oracle: of {} pixels", support::grouped(d.pixels));
   const char* separator = " ";
   for (const auto& [name, count] : {std::pair{"coverage", d.coverage},
                                     {"ids", d.id},
                                     {"depth", d.depth},
                                     {"hits", d.hits},
                                     {"values", d.attribute}})
-    if (count) text += fmt::format("{}{} in {}", std::exchange(separator, ", "), name, grouped(*count));
+    if (count) text += fmt::format("{}{} in {}", std::exchange(separator, ", "), name, support::grouped(*count));
   return text;
 }
 

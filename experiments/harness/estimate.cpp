@@ -36,7 +36,7 @@ class Ratios {
  public:
   /// Lines that are no rows of a sweep are passed over: any file may have that name, and so may a pipe.
   explicit Ratios(const std::filesystem::path& file) {
-    if (!whyNoFile(file).empty()) return;
+    if (!support::whyNoFile(file).empty()) return;
     std::ifstream stream(file);
     std::map<std::string, double> references;
     std::vector<std::pair<std::string, Json>> rows;
@@ -165,7 +165,7 @@ Estimate estimate(const Sweep& sweep, const std::vector<SweepPoint>& cells, cons
     result.nothing = false;
     result.seconds += static_cast<double>(images.size()) * oracle;
   };
-  Progress progress("measuring the references", cells.empty() ? 0 : cells.back().group + 1);
+  support::Progress progress("measuring the references", cells.empty() ? 0 : cells.back().group + 1);
   for (auto first = cells.begin(); first != cells.end();) {
     const auto last =
         std::find_if(first, cells.end(), [&](const SweepPoint& cell) { return cell.group != first->group; });

@@ -25,7 +25,7 @@ std::optional<Record> recordOf(const fs::path& folder, bool resume) {
   std::error_code ignored;
   if (fs::exists(folder, ignored) && !fs::is_directory(folder, ignored))
     failUsage(fmt::format("--out {}: is a file; the name of a folder would do", folder.string()));
-  checkOutputFolder(folder);
+  support::checkOutputFolder(folder);
   if (!fs::exists(journalOf(folder), ignored)) {
     for (const auto& entry : fs::directory_iterator(folder, ignored))
       if (!isHalfFile(entry.path()))

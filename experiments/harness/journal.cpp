@@ -171,7 +171,7 @@ void Journal::create(const fs::path& folder, const Json& head) {
   if (error) failUsage(fmt::format("{}: the folder cannot be made: {}", folder.string(), error.message()));
   try {
     // A sweep that was begun here in the meantime keeps its journal.
-    if (writeNew(journalOf(folder), lineOf(head))) return;
+    if (support::writeNew(journalOf(folder), lineOf(head))) return;
   } catch (const Error& failure) {
     fail(fmt::format("{}; a folder that can be written, with room in it, would do", failure.what()));
   }

@@ -37,9 +37,10 @@ const Names kStatuses{"ok", "overflow", "unsupported", "timeout", "error"};
 
 std::string oneOf(const TomlTable& table, std::string_view key, const toml::node& node, const Names& names) {
   const auto text = node.value_exact<std::string>();
-  if (!text) table.refuse(key, node, fmt::format("a name in quotes would be right; {}", whatThereIs("", names)));
+  if (!text)
+    table.refuse(key, node, fmt::format("a name in quotes would be right; {}", support::whatThereIs("", names)));
   if (std::ranges::find(names, *text) == names.end())
-    table.refuse(key, node, fmt::format("no '{}'; {}", *text, whatThereIs(*text, names)));
+    table.refuse(key, node, fmt::format("no '{}'; {}", *text, support::whatThereIs(*text, names)));
   return *text;
 }
 
@@ -82,7 +83,7 @@ void checkBounds(const TomlTable& expect, std::string_view key, const Names& fie
   const TomlTable bounds(expect.file(), *node->as_table(), fmt::format("{}{}.", expect.path(), key));
   for (const TomlTable::Entry& entry : bounds.entries()) {
     if (std::ranges::find(fields, entry.key.str()) == fields.end())
-      bounds.refuseKey(entry.key, fmt::format("no such field; {}", whatThereIs(entry.key.str(), fields)));
+      bounds.refuseKey(entry.key, fmt::format("no such field; {}", support::whatThereIs(entry.key.str(), fields)));
     checkBound(bounds, entry);
   }
 }

@@ -139,7 +139,7 @@ void deriveRows(const std::filesystem::path& folder) {
   const Record record = readJournal(folder);
   checkRowsKept(folder, record);
   try {
-    writeWhole(path, rowsText(record));
+    support::writeWhole(path, rowsText(record));
   } catch (const Error& error) {
     fail(fmt::format("{}; the journal beside it is whole: --resume writes it once there is room", error.what()));
   }

@@ -78,7 +78,7 @@ std::vector<Job> chosenJobs(const std::vector<Job>& jobs, const std::vector<std:
   for (const Job& job : jobs) known.push_back(job.name);
   for (const auto& name : names)
     if (std::ranges::find(known, name) == known.end())
-      failUsage(fmt::format("--job {}: no such job; {}", name, whatThereIs(name, known)));
+      failUsage(fmt::format("--job {}: no such job; {}", name, support::whatThereIs(name, known)));
   std::vector<Job> chosen;
   for (const Job& job : jobs)
     if (std::ranges::find(names, job.name) != names.end()) chosen.push_back(job);
@@ -167,7 +167,7 @@ class Runner {
     for (const Job& job : jobs_)
       if (!schedule_.isDone(job)) prepare(job);
     open();
-    Progress progress("sweep", schedule_.steps());
+    support::Progress progress("sweep", schedule_.steps());
     progress_ = &progress;
     for (const Job& job : jobs_) {
       if (schedule_.isDone(job)) continue;
@@ -299,7 +299,7 @@ class Runner {
             name, which, part(before, which), part(row, which)));
     for (const auto& [stage, file] : cells_[number].kernels)
       if (const Json files = before.value("kernel_files", Json::object());
-          files.contains(stage) && files.at(stage).at("sha256") != sha256(readFile(file)))
+          files.contains(stage) && files.at(stage).at("sha256") != support::sha256(readFile(file)))
         failUsage(
             fmt::format("{}: {} is not what it was when this sweep began; as it was it resumes it, another folder "
                         "begins anew",
@@ -327,7 +327,7 @@ class Runner {
     if (begun_) journal_->cut(begun_->bytes);
     removeHalfFiles(folder_);
     // The report reads [plot] from it.
-    if (!fs::exists(folder_ / "sweep.toml")) writeWhole(folder_ / "sweep.toml", sweep_.text);
+    if (!fs::exists(folder_ / "sweep.toml")) support::writeWhole(folder_ / "sweep.toml", sweep_.text);
     session_ = begun_ ? begun_->sessions : 0;
     double load[3] = {};
     getloadavg(load, 3);
@@ -459,7 +459,7 @@ class Runner {
   std::string ending_;
   unsigned session_ = 0;
   const Job* job_ = nullptr;
-  Progress* progress_ = nullptr;
+  support::Progress* progress_ = nullptr;
   std::size_t checks_ = 0;
   double checkS_ = 0;
 };
@@ -485,9 +485,9 @@ void runSweep(const SweepOptions& options) {
   deriveRows(options.folder);
   if (options.quiet) return;
   if (resumed && wasDone)
-    say(stdout, "{}: the sweep had ended already: nothing was left to do\n", options.folder.string());
+    support::say(stdout, "{}: the sweep had ended already: nothing was left to do\n", options.folder.string());
   else
-    say(stdout, "{}", summaryOf(readJournal(options.folder), options.folder));
+    support::say(stdout, "{}", summaryOf(readJournal(options.folder), options.folder));
 }
 
 }  // namespace tessera::harness

@@ -85,14 +85,14 @@ std::string groupTable(const std::vector<Line>& lines, const std::vector<std::st
       row.insert(row.end(), {"-", "-", line.status()});
     } else {
       const bool twin = flagAt(sweep, "twin");
-      row.push_back(milliseconds(medianTime(*line.cell)));
+      row.push_back(support::milliseconds(medianTime(*line.cell)));
       const auto over = reference == lines.end() ? std::nullopt : ratio(*line.cell, *reference->cell);
       row.push_back(over ? fmt::format("{:.3f}", *over) : "-");
       row.push_back(twin ? "A/A" : errorText(line.cell->row));
     }
     rows.push_back(std::move(row));
   }
-  return table(rows);
+  return support::table(rows);
 }
 
 }  // namespace
@@ -111,7 +111,7 @@ std::string summaryOf(const Record& record, const std::filesystem::path& folder)
                            line.status(), message);
   }
   std::string text = fmt::format("{}: {} cells", record.head.at("sweep").at("title").get<std::string>(),
-                                 grouped(record.head.at("cells").size()));
+                                 support::grouped(record.head.at("cells").size()));
   for (const auto& [status, count] : counts) text += fmt::format(", {} {}", count, status);
   text += '\n' + notes;
 

@@ -50,7 +50,7 @@ Survey survey(const Sweep& sweep, const std::vector<SweepPoint>& cells, KernelCa
   std::optional<Scene> scene;
   std::size_t loaded = 0;
   Size size;
-  Progress progress("planning", cells.size());
+  support::Progress progress("planning", cells.size());
   for (const SweepPoint& cell : cells) {
     SurveyedPoint& result = survey.cells[cell.number];
     const auto key = std::pair(cell.device, cell.threads);

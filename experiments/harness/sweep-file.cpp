@@ -88,11 +88,11 @@ std::string readInput(const TomlTable& table, std::string_view key, const toml::
   }
   const fs::path path = (folder / text).lexically_normal();
   const auto known = {".obj", ".off", ".ply", ".stl", ".toml", ".replay"};
-  if (std::ranges::find(known, lowerCase(path.extension().string())) == known.end())
+  if (std::ranges::find(known, support::lowerCase(path.extension().string())) == known.end())
     table.refuse(key, node,
                  fmt::format("'{}': generate:NAME, mesh:NAME or a file that ends in {} would be right", text,
                              fmt::join(known, " ")));
-  if (const std::string why = whyNoFile(path); !why.empty())
+  if (const std::string why = support::whyNoFile(path); !why.empty())
     table.refuse(key, node, fmt::format("{}: {}", path.string(), why));
   return path.string();
 }
@@ -248,13 +248,14 @@ std::vector<SweptKernel> readKernels(const TomlTable& table, const fs::path& fol
   std::vector<SweptKernel> kernels;
   for (const auto& [key, node] : table.entries()) {
     if (std::ranges::find(stages(), key.str(), &Stage::name) == stages().end()) {
-      table.refuseKey(key, fmt::format("no such stage; {}", whatThereIs(key.str(), namesOf(stages(), &Stage::name))));
+      table.refuseKey(key, fmt::format("no such stage; {}",
+                                       support::whatThereIs(key.str(), support::namesOf(stages(), &Stage::name))));
     }
     SweptKernel kernel{std::string(key.str()), {}, {}};
     for (const toml::node& element : *table.list(key.str(), "a list such as [\"\", \"mine.comp\"]")) {
       const std::string text = textOf(table, key.str(), element, "a file's name, or \"\" for the stage's own kernel,");
       const fs::path file = text.empty() ? fs::path() : (folder / text).lexically_normal();
-      if (const std::string why = text.empty() ? "" : whyNoFile(file); !why.empty())
+      if (const std::string why = text.empty() ? "" : support::whyNoFile(file); !why.empty())
         table.refuse(key.str(), element, fmt::format("{}: {}", file.string(), why));
       if (!text.empty()) at(table, key.str(), element, [&] { return languageOf(file); });
       addOnce(table, key.str(), element, kernel.files, file);
@@ -314,7 +315,8 @@ Variant readTruth(const TomlTable& top) {
       names.push_back(axis.name);  // the oracle has no colours
   for (const TomlTable::Entry& entry : table.entries())
     if (std::ranges::find(names, entry.key.str()) == names.end())
-      table.refuseKey(entry.key, fmt::format("does not change what is right; {}", whatThereIs(entry.key.str(), names)));
+      table.refuseKey(entry.key,
+                      fmt::format("does not change what is right; {}", support::whatThereIs(entry.key.str(), names)));
   return readVariant(table);
 }
 
@@ -387,7 +389,7 @@ void readQuick(const TomlTable& top, Sweep& sweep, bool quick) {
       if (std::ranges::find(sweep.scenes, name, &SweepScene::name) == sweep.scenes.end())
         table.refuse("scenes", node,
                      fmt::format("no scene '{}' under [scenes]; {}", name,
-                                 whatThereIs(name, namesOf(sweep.scenes, &SweepScene::name))));
+                                 support::whatThereIs(name, support::namesOf(sweep.scenes, &SweepScene::name))));
       addOnce(table, "scenes", node, names, name);
     }
     std::erase_if(changed.scenes,
@@ -402,7 +404,7 @@ Sweep readSweep(const fs::path& path, bool quick, const Changes& changes) {
   Sweep sweep;
   sweep.path = fs::absolute(path).lexically_normal();
   sweep.text = readFile(path);
-  sweep.sha256 = sha256(sweep.text);
+  sweep.sha256 = support::sha256(sweep.text);
   const fs::path folder = path.parent_path();  // as it was given: messages, and so rows, name no folder of this machine
   const std::string file = path.string();
   const toml::table root = parseToml(file, sweep.text);

@@ -87,7 +87,7 @@ WorkerProcess::WorkerProcess(Interrupts& interrupts) : interrupts_(interrupts) {
   posix_spawnattr_setsigdefault(&attributes, &defaults);
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
   char name[] = "tessera", command[] = "sweep-worker", quiet[] = "--quiet";
-  char* const arguments[] = {name, command, Progress::silenced() ? quiet : nullptr, nullptr};
+  char* const arguments[] = {name, command, support::Progress::silenced() ? quiet : nullptr, nullptr};
   // The program that runs, also where a new one has been built in its place.
   const int error = posix_spawn(&child_, "/proc/self/exe", &actions, &attributes, arguments, environ);
   posix_spawn_file_actions_destroy(&actions);

@@ -58,7 +58,8 @@ const RouteInfo& routeInfo(Route route) { return *std::ranges::find(routes(), ro
 const RouteInfo& routeNamed(std::string_view name) {
   const auto found = std::ranges::find(routes(), name, &RouteInfo::name);
   if (found != routes().end()) return *found;
-  failUsage(fmt::format("route {}: no such route; {}", name, whatThereIs(name, namesOf(routes(), &RouteInfo::name))));
+  failUsage(fmt::format("route {}: no such route; {}", name,
+                        support::whatThereIs(name, support::namesOf(routes(), &RouteInfo::name))));
 }
 
 Axis routeAxis() {

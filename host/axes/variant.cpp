@@ -26,7 +26,7 @@ void checkNumber(const Axis& axis, std::string_view text) {
   failUsage(axis.values.empty() ? fmt::format("--set {0}: has no value; {0}={1} to {0}={2} would be right", axis.name,
                                               axis.least, axis.most)
                                 : fmt::format("--set {0}: has no value; {0}={1} would be right", axis.name,
-                                              fmt::join(namesOf(axis.values, &AxisValue::name), " or ")));
+                                              fmt::join(support::namesOf(axis.values, &AxisValue::name), " or ")));
 }
 
 }  // namespace
@@ -45,7 +45,8 @@ AxisKind Axis::kind() const {
 const Axis& axis(std::string_view name) {
   const auto found = std::ranges::find(allAxes(), name, &Axis::name);
   if (found != allAxes().end()) return *found;
-  failUsage(fmt::format("--set {}: no such axis; {}", name, whatThereIs(name, namesOf(allAxes(), &Axis::name))));
+  failUsage(fmt::format("--set {}: no such axis; {}", name,
+                        support::whatThereIs(name, support::namesOf(allAxes(), &Axis::name))));
 }
 
 const AxisValue& axisValue(std::string_view axisName, std::string_view name) {
@@ -53,7 +54,7 @@ const AxisValue& axisValue(std::string_view axisName, std::string_view name) {
   const auto found = std::ranges::find(a.values, name, &AxisValue::name);
   if (found != a.values.end()) return *found;
   failUsage(fmt::format("--set {}={}: no such value; {}", a.name, name,
-                        whatThereIs(name, namesOf(a.values, &AxisValue::name))));
+                        support::whatThereIs(name, support::namesOf(a.values, &AxisValue::name))));
 }
 
 const CommitTraits& commitTraits(std::string_view commit) {

@@ -24,14 +24,14 @@ using namespace tessera;
 
 ExitCode complain(ExitCode code, std::string line) {
   std::replace(line.begin(), line.end(), '\n', ' ');
-  say(stderr, "tessera: {}\n", line);
+  support::say(stderr, "tessera: {}\n", line);
   return code;
 }
 
 /// The help or the version that the command line asks for.
 void printRequested(const CLI::App& app, const CLI::ParseError& request) {
   const bool version = dynamic_cast<const CLI::CallForVersion*>(&request) != nullptr;
-  say(stdout, "{}", version ? std::string(request.what()) + '\n' : app.help());
+  support::say(stdout, "{}", version ? std::string(request.what()) + '\n' : app.help());
 }
 
 ExitCode runCommand(int argc, char** argv) {
@@ -57,7 +57,7 @@ ExitCode runCommand(int argc, char** argv) {
                             cli::addCompletion(app), cli::addComplete(app),        cli::addMan(app),
                             cli::addHelp(app),       cli::addVersion(app, version)};
   if (argc < 2) {
-    say(stderr, "{}\n", cli::shortHelp(app));
+    support::say(stderr, "{}\n", cli::shortHelp(app));
     return ExitCode::kUsage;
   }
   const std::vector<std::string> words(argv + 1, argv + argc);
@@ -84,7 +84,7 @@ int tessera::cli::runCommandLine(int argc, char** argv) {
   ExitCode code = ExitCode::kDone;
   try {
     code = runCommand(argc, argv);
-    flushStdout();
+    support::flushStdout();
   } catch (const Error& error) {
     code = complain(error.code(), error.what());
   } catch (const std::filesystem::filesystem_error& error) {

@@ -141,7 +141,7 @@ void addQuiet(CLI::App& app, bool& quiet) {
       "-q,--quiet",
       [&quiet] {
         quiet = true;
-        Progress::silence();
+        support::Progress::silence();
       },
       "no progress and no summary; warnings and errors stay");
 }
@@ -180,9 +180,10 @@ KernelFiles kernelFilesOf(const Options& options) {
     const std::string stage = text.substr(0, equals);
     const fs::path file = text.substr(equals + 1);
     if (std::ranges::find(stages(), stage, &Stage::name) == stages().end())
-      failUsage(
-          fmt::format("--kernel {}: no such stage; {}", text, whatThereIs(stage, namesOf(stages(), &Stage::name))));
-    if (const std::string why = whyNoFile(file); !why.empty()) failUsage(fmt::format("--kernel {}: {}", text, why));
+      failUsage(fmt::format("--kernel {}: no such stage; {}", text,
+                            support::whatThereIs(stage, support::namesOf(stages(), &Stage::name))));
+    if (const std::string why = support::whyNoFile(file); !why.empty())
+      failUsage(fmt::format("--kernel {}: {}", text, why));
     languageOf(file);
     if (!files.emplace(stage, file).second) failUsage(fmt::format("--kernel {}: the stage has a file already", text));
   }
@@ -198,7 +199,7 @@ AttributeRequest attributeOf(const Options& options) {
 Scene sceneOf(const Options& options) {
   const Size size = options.size.empty() ? Size{0, 0} : parseSize(options.size);  // 0: the scene's own
   Scene scene = [&] {
-    Progress progress(fmt::format("reading {}", options.input), 0);
+    support::Progress progress(fmt::format("reading {}", options.input), 0);
     const auto start = std::chrono::steady_clock::now();
     return loadInput(
         options.input, size.width, size.height, attributeOf(options), [&](std::size_t done, std::size_t total) {

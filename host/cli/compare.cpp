@@ -60,7 +60,7 @@ std::uint64_t bytesOf(const std::string& text, const std::string& option) {
   std::uint64_t number = 0;
   const char* const end = text.data() + text.size();
   const auto [rest, error] = std::from_chars(text.data(), end, number);
-  std::string unit = lowerCase({rest, end});
+  std::string unit = support::lowerCase({rest, end});
   unit.erase(0, unit.find_first_not_of(' '));
   unsigned shift = 0;
   if (const std::size_t at = unit.empty() ? kUnits.npos : kUnits.find(unit[0]); at != kUnits.npos) {
@@ -225,8 +225,9 @@ std::string outcomeText(const CompareOptions& options, const Request& request, c
   std::string text = missingText(options, outcome.a, outcome.b) + factsText(options, outcome.facts);
   text += request.within.any() ? describe(bits, within) : describe(bits);
   if (!options.allow.empty())
-    text += fmt::format("{} of {} pixels differ{}; {} may\n", grouped(within.anywhere), grouped(within.pixels),
-                        request.within.any() ? " beyond the tolerances" : "", options.allow);
+    text += fmt::format("{} of {} pixels differ{}; {} may\n", support::grouped(within.anywhere),
+                        support::grouped(within.pixels), request.within.any() ? " beyond the tolerances" : "",
+                        options.allow);
   text += fmt::format("{}\n", verdict.word);
   if (!options.output.empty()) text += fmt::format("wrote {}\n", options.output);
   if (verdict.code == ExitCode::kDone) return text;
@@ -260,7 +261,7 @@ std::string outcomeJson(const CompareOptions& options, const Request& request, c
   result["depends_on"] = Json::object();
   for (const auto& [name, values] : outcome.facts)
     for (const auto& value : values) result["depends_on"][name].push_back(value ? Json(*value) : Json());
-  return visible(result.dump(-1, ' ', false, Json::error_handler_t::replace));
+  return support::visible(result.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
 ExitCode runCompare(const CompareOptions& options) {
@@ -269,14 +270,14 @@ ExitCode runCompare(const CompareOptions& options) {
   std::vector<std::filesystem::path> outputs;
   if (!options.output.empty()) outputs.push_back(output.emplace(options.output).path());
   if (!options.json.empty()) outputs.emplace_back(options.json);
-  checkApart(outputs, {options.a, options.b});
-  std::optional<AppendedFile> rows;
+  support::checkApart(outputs, {options.a, options.b});
+  std::optional<support::AppendedFile> rows;
   if (!options.json.empty()) rows.emplace(options.json);
   const Outcome outcome = compareFiles(options, request, output);
   if (rows) rows->append(outcomeJson(options, request, outcome));
   if (options.quiet) return verdictOf(request, outcome).code;
-  const bool stdoutIsTaken = std::ranges::any_of(outputs, isStdout);
-  say(stdoutIsTaken ? stderr : stdout, "{}", outcomeText(options, request, outcome));
+  const bool stdoutIsTaken = std::ranges::any_of(outputs, support::isStdout);
+  support::say(stdoutIsTaken ? stderr : stdout, "{}", outcomeText(options, request, outcome));
   return verdictOf(request, outcome).code;
 }
 

@@ -96,7 +96,7 @@ std::string completionScript(const std::string& shell) {
       {{"bash", kBash}, {"zsh", kZsh}, {"fish", kFish}}};
   for (const auto& [name, script] : scripts)
     if (name == shell) return script;
-  failUsage("completion " + shell + ": no such shell; " + whatThereIs(shell, {"bash", "zsh", "fish"}));
+  failUsage("completion " + shell + ": no such shell; " + support::whatThereIs(shell, {"bash", "zsh", "fish"}));
 }
 
 }  // namespace tessera::cli

@@ -43,7 +43,7 @@ std::string probeCell(Device& device, KernelCache* kernels, Route route, std::st
 
 std::string yesNo(bool value) { return value ? "yes" : "no"; }
 
-std::string limitText(std::uint32_t limit) { return limit == ~0u ? "any" : grouped(limit); }
+std::string limitText(std::uint32_t limit) { return limit == ~0u ? "any" : support::grouped(limit); }
 
 /// Absent where nothing is known to limit it.
 Json limitJson(std::uint64_t limit, std::uint64_t none) { return limit == none ? Json() : Json(limit); }
@@ -73,8 +73,9 @@ void addDeviceRow(Rows& rows, Json& json, const std::string& name, KernelCache* 
                   {"clock", info.timeClock},
                   {"probe", probes}});
   rows.push_back({name, info.name, info.driver, yesNo(info.int64), yesNo(info.atomicMin64),
-                  byteSize(info.maxBufferBytes), byteSize(info.maxGroupBytes), limitText(info.maxLoopIterations),
-                  limitText(info.maxGroupsPerDimension), info.timeClock, fmt::format("{}", fmt::join(cells, ", "))});
+                  support::byteSize(info.maxBufferBytes), support::byteSize(info.maxGroupBytes),
+                  limitText(info.maxLoopIterations), limitText(info.maxGroupsPerDimension), info.timeClock,
+                  fmt::format("{}", fmt::join(cells, ", "))});
   if (info.correctnessOnly) notes += fmt::format("{}: a software driver; its times say nothing about a GPU\n", name);
 }
 
@@ -102,7 +103,7 @@ ExitCode runDevices(const DevicesOptions& options) {
   std::string notes;
   const auto names = presentDevices();
   {
-    Progress progress("devices", names.size());
+    support::Progress progress("devices", names.size());
     for (std::size_t i = 0; i < names.size(); ++i) {
       progress.at(i, names[i]);
       addDeviceRow(rows, json["devices"], names[i], kernels.get(), notes);
@@ -125,10 +126,10 @@ ExitCode runDevices(const DevicesOptions& options) {
   }
   if (options.json) {
     json["notes"] = ofDrivers;
-    say(stdout, "{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
+    support::say(stdout, "{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
     return ExitCode::kDone;
   }
-  say(stdout, "{}\n{}{}{}", table(rows), notes, notes.empty() ? "" : "\n", compilers);
+  support::say(stdout, "{}\n{}{}{}", support::table(rows), notes, notes.empty() ? "" : "\n", compilers);
   return ExitCode::kDone;
 }
 

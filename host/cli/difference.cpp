@@ -37,8 +37,9 @@ std::string pixelText(const NamedFrame& named, std::size_t at) {
 
 std::string describe(const Difference& bits, const std::optional<Difference>& beyond) {
   const auto counts = [](const Difference& d) {
-    return std::vector<std::string>{grouped(d.pixels), grouped(d.coverage),  grouped(d.id),    grouped(d.depth),
-                                    grouped(d.hits),   grouped(d.attribute), grouped(d.colour)};
+    return std::vector<std::string>{
+        support::grouped(d.pixels), support::grouped(d.coverage),  support::grouped(d.id),    support::grouped(d.depth),
+        support::grouped(d.hits),   support::grouped(d.attribute), support::grouped(d.colour)};
   };
   std::vector<std::vector<std::string>> rows{{"pixels", "coverage", "id", "depth", "hits", "values", "colour"},
                                              counts(bits)};
@@ -47,7 +48,7 @@ std::string describe(const Difference& bits, const std::optional<Difference>& be
     const std::array<const char*, 3> names{"", "other bits", "beyond tolerance"};
     for (std::size_t k = 0; k < rows.size(); ++k) rows[k].insert(rows[k].begin(), names[k]);
   }
-  std::string text = table(rows);
+  std::string text = support::table(rows);
   if (bits.depth.value_or(0) != 0)
     text += fmt::format("largest depth difference {} ({} float32 steps)\n", *bits.depthMaxAbs, *bits.depthMaxUlp);
   if (bits.attribute.value_or(0) != 0)

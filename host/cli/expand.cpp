@@ -76,7 +76,7 @@ std::string jobsTable(const Sweep& sweep, const std::vector<SweepPoint>& cells, 
     rows.push_back({job.name, fmt::format("{}", fmt::join(sizes, " ")), fmt::format("{}", fmt::join(threads, " ")),
                     std::to_string(job.cells.size()), std::to_string(refused)});
   }
-  return table(rows);
+  return support::table(rows);
 }
 
 std::size_t referenceOf(const std::vector<SweepPoint>& cells, std::size_t group) {
@@ -129,7 +129,7 @@ std::string variantsTable(const Sweep& sweep, const std::vector<SweepPoint>& cel
       rows.back()[2] = fmt::format("{}: {}", count == variant.cells ? "all" : std::to_string(count), reason);
     }
   }
-  return table(rows);
+  return support::table(rows);
 }
 
 /// "40 s", "12 min", "3.5 h".
@@ -142,16 +142,17 @@ std::string estimateText(const Estimate& estimate) {
   const std::string missing = estimate.unmeasured == 0
                                   ? ""
                                   : fmt::format("{} cells are not counted, since their reference failed: {}\n",
-                                                grouped(estimate.unmeasured), estimate.whyNot);
+                                                support::grouped(estimate.unmeasured), estimate.whyNot);
   if (estimate.nothing) return missing.empty() ? "none of it runs here\n" : missing;
   std::string text = fmt::format("about {} here, by the references' times, measured now", duration(estimate.seconds));
   if (estimate.others != 0 && estimate.fromRows == 0)
     text += ", if every other cell takes as long: no results.jsonl beside the sweep has ratios";
   if (estimate.fromRows != 0)
-    text += fmt::format(", and the ratios of {} of {} other cells in results.jsonl{}", grouped(estimate.fromRows),
-                        grouped(estimate.others),
+    text += fmt::format(", and the ratios of {} of {} other cells in results.jsonl{}",
+                        support::grouped(estimate.fromRows), support::grouped(estimate.others),
                         estimate.fromRows < estimate.others ? "; the rest count as their references" : "");
-  if (!estimate.compilingIsCounted) text += fmt::format("; compiling ({}) comes on top", grouped(estimate.uncompiled));
+  if (!estimate.compilingIsCounted)
+    text += fmt::format("; compiling ({}) comes on top", support::grouped(estimate.uncompiled));
   return text + '\n' + missing;
 }
 
@@ -166,24 +167,24 @@ ExitCode expand(const ExpandOptions& options) {
   if (!options.json) {
     std::size_t refused = 0;
     for (const SurveyedPoint& cell : surveyed.cells) refused += cell.refused.has_value();
-    say(stdout, "{}\n{}\n\n{}\n{}\n", sweep.title, sweep.question, jobsTable(sweep, all, surveyed),
-        variantsTable(sweep, all, surveyed));
-    say(stdout,
-        "{} cells, {} of them refused; {} rounds, each of {} + {} frames a cell; {} kernels, {} of them to be "
-        "compiled\n",
-        grouped(all.size()), grouped(refused), sweep.rounds, sweep.warmUp, sweep.repeats, grouped(surveyed.kernels),
-        grouped(surveyed.uncompiled.size()));
-    flushStdout();
+    support::say(stdout, "{}\n{}\n\n{}\n{}\n", sweep.title, sweep.question, jobsTable(sweep, all, surveyed),
+                 variantsTable(sweep, all, surveyed));
+    support::say(stdout,
+                 "{} cells, {} of them refused; {} rounds, each of {} + {} frames a cell; {} kernels, {} of them to be "
+                 "compiled\n",
+                 support::grouped(all.size()), support::grouped(refused), sweep.rounds, sweep.warmUp, sweep.repeats,
+                 support::grouped(surveyed.kernels), support::grouped(surveyed.uncompiled.size()));
+    support::flushStdout();
   }
   std::optional<Estimate> time;
   const bool kernelsMayRun = options.allowKernels || sweep.foreignKernel.empty();
   if (!options.noEstimate && !kernelsMayRun)
-    say(stderr, "nothing was rendered to say how long it will take: {}\n", sweep.foreignKernel);
+    support::say(stderr, "nothing was rendered to say how long it will take: {}\n", sweep.foreignKernel);
   if (!options.noEstimate && kernelsMayRun) time = estimate(sweep, all, surveyed);
   if (options.json)
-    say(stdout, "{}", expandJson(sweep, all, surveyed, time));
+    support::say(stdout, "{}", expandJson(sweep, all, surveyed, time));
   else if (time)
-    say(stdout, "{}", estimateText(*time));
+    support::say(stdout, "{}", estimateText(*time));
   return ExitCode::kDone;
 }
 

@@ -19,9 +19,9 @@ Command addHelp(CLI::App& app) {
   return {command, [name, &app] {
             // Not app.help(), which goes to the command that was parsed, that is, to this one.
             const auto formatter = app.get_formatter();
-            say(stdout, "{}",
-                name->empty() ? formatter->make_help(&app, "tessera", CLI::AppFormatMode::Normal)
-                              : commandNamed(app, *name).help("tessera"));
+            support::say(stdout, "{}",
+                         name->empty() ? formatter->make_help(&app, "tessera", CLI::AppFormatMode::Normal)
+                                       : commandNamed(app, *name).help("tessera"));
             return ExitCode::kDone;
           }};
 }
@@ -40,7 +40,7 @@ Command addCompletion(CLI::App& app) {
       "completion "
       "bash).");
   return {command, [shell] {
-            say(stdout, "{}", completionScript(*shell));
+            support::say(stdout, "{}", completionScript(*shell));
             return ExitCode::kDone;
           }};
 }
@@ -52,7 +52,7 @@ Command addComplete(CLI::App& app) {
   return {command, [words, &app] {
             if (words->empty()) words->emplace_back();
             for (const Candidate& candidate : candidates(app, *words))
-              say(stdout, "{}\t{}\n", candidate.word, candidate.meaning);
+              support::say(stdout, "{}\t{}\n", candidate.word, candidate.meaning);
             return ExitCode::kDone;
           }};
 }
@@ -61,7 +61,7 @@ Command addMan(CLI::App& app) {
   auto* const command = app.add_subcommand("man", "print the manual page, for man to show");
   command->footer("Example:\n  tessera man | man -l -");
   return {command, [&app] {
-            say(stdout, "{}", manualPage(app));
+            support::say(stdout, "{}", manualPage(app));
             return ExitCode::kDone;
           }};
 }
@@ -70,7 +70,7 @@ Command addVersion(CLI::App& app, const std::string& version) {
   auto* const command = app.add_subcommand("version", "print the version");
   command->footer("Example:\n  tessera version");
   return {command, [version] {
-            say(stdout, "{}\n", version);
+            support::say(stdout, "{}\n", version);
             return ExitCode::kDone;
           }};
 }

@@ -69,8 +69,9 @@ std::string axesHelp(unsigned columns) {
   std::string text = heading("AXIS=VALUE of --set ('tessera variants' says more)").substr(1);
   for (const Axis& axis : allAxes())
     text += twoColumns(axis.name,
-                       axis.values.empty() ? fmt::format("{} to {}", axis.least, axis.most)
-                                           : fmt::format("{}", fmt::join(namesOf(axis.values, &AxisValue::name), ", ")),
+                       axis.values.empty()
+                           ? fmt::format("{} to {}", axis.least, axis.most)
+                           : fmt::format("{}", fmt::join(support::namesOf(axis.values, &AxisValue::name), ", ")),
                        columns);
   return text;
 }

@@ -60,11 +60,12 @@ ToEmit whatToEmit(const KernelsOptions& options) {
 std::vector<std::string> writeManifest(const std::filesystem::path& folder, const Manifest& manifest) {
   if (!manifest.files.empty()) std::filesystem::create_directories(folder / "buffers");
   for (const auto& [name, bytes] : manifest.files)
-    writeWhole(folder / name, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-  writeWhole(folder / "manifest.json", manifest.text);
+    support::writeWhole(folder / name, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  support::writeWhole(folder / "manifest.json", manifest.text);
   if (!manifest.complaint.empty())
-    say(stderr, "manifest.json has no commands, since the frame could not be run here: {}\n", manifest.complaint);
-  return {"manifest", grouped(manifest.text.size()), (folder / "manifest.json").string()};
+    support::say(stderr, "manifest.json has no commands, since the frame could not be run here: {}\n",
+                 manifest.complaint);
+  return {"manifest", support::grouped(manifest.text.size()), (folder / "manifest.json").string()};
 }
 
 ExitCode emit(const KernelsOptions& options) {
@@ -83,8 +84,8 @@ ExitCode emit(const KernelsOptions& options) {
   std::vector<fs::path> outputs{folder / "manifest.json"};
   for (const KernelRequest& request : kernelRequests(plan, {}))
     outputs.push_back(folder / fmt::format("{}.{}", request.stage, target.extension));
-  checkApart(outputs, inputsOf(options));
-  for (const fs::path& output : outputs) checkWhole(output);
+  support::checkApart(outputs, inputsOf(options));
+  for (const fs::path& output : outputs) support::checkWhole(output);
   std::vector<std::vector<std::string>> rows{{"stage", "bytes", "file"}};
   std::size_t missing = 0;
   std::vector<WrittenStage> stages;
@@ -93,18 +94,19 @@ ExitCode emit(const KernelsOptions& options) {
     const Emitted emitted = emitKernel(kernels, request, target);
     const fs::path file = folder / fmt::format("{}.{}", emitted.stage, target.extension);
     if (emitted.complaint.empty())
-      writeWhole(file, emitted.bytes);
+      support::writeWhole(file, emitted.bytes);
     else
       ++missing;
     stages.push_back({emitted, emitted.complaint.empty() ? file.filename().string() : ""});
     rows.push_back(emitted.complaint.empty()
-                       ? std::vector<std::string>{emitted.stage, grouped(emitted.bytes.size()), file.string()}
+                       ? std::vector<std::string>{emitted.stage, support::grouped(emitted.bytes.size()), file.string()}
                        : std::vector<std::string>{emitted.stage, "-", emitted.complaint});
   }
   rows.push_back(writeManifest(folder, manifestOf(scene, variant, plan, target, stages)));
-  if (!options.quiet) say(stdout, "{}", table(rows));
+  if (!options.quiet) support::say(stdout, "{}", support::table(rows));
   if (missing == 0) return ExitCode::kDone;
-  say(stderr, "{} of {} stages cannot be written for {}: the table says why\n", missing, stages.size(), target.name);
+  support::say(stderr, "{} of {} stages cannot be written for {}: the table says why\n", missing, stages.size(),
+               target.name);
   return ExitCode::kUnsupported;
 }
 
@@ -124,8 +126,8 @@ ExitCode runKernels(const KernelsOptions& options) {
   compileKernels(kernels, plans);
   const KernelCache::Statistics statistics = kernels.statistics();
   if (options.quiet) return ExitCode::kDone;
-  say(stdout, "{} kernels of the default variants are ready in {}, {} of them compiled now\n",
-      statistics.hits + statistics.compiled, kernels.folder().string(), statistics.compiled);
+  support::say(stdout, "{} kernels of the default variants are ready in {}, {} of them compiled now\n",
+               statistics.hits + statistics.compiled, kernels.folder().string(), statistics.compiled);
   return ExitCode::kDone;
 }
 

@@ -79,12 +79,12 @@ std::string manualPage(const CLI::App& app) {
     text += entry(fmt::format("generate:{}?KEY=VALUE&KEY=VALUE", doc.name), doc.makes + ". " + doc.parameters);
   text += section("AXES") + paragraphs("What --set takes. An axis that is not set is the plan's choice.");
   for (const Axis& axis : allAxes())
-    text +=
-        entry(axis.name, fmt::format("{}: {}. When not set: {}.", axis.meaning,
-                                     axis.values.empty()
-                                         ? fmt::format("{} to {}", axis.least, axis.most)
-                                         : fmt::format("{}", fmt::join(namesOf(axis.values, &AxisValue::name), ", ")),
-                                     axis.unset));
+    text += entry(axis.name,
+                  fmt::format("{}: {}. When not set: {}.", axis.meaning,
+                              axis.values.empty()
+                                  ? fmt::format("{} to {}", axis.least, axis.most)
+                                  : fmt::format("{}", fmt::join(support::namesOf(axis.values, &AxisValue::name), ", ")),
+                              axis.unset));
   text += section("ENVIRONMENT");
   text += entry("TESSERA_CACHE",
                 "the folder of compiled kernels and unpacked meshes; else tessera in $XDG_CACHE_HOME or ~/.cache");

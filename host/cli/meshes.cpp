@@ -13,10 +13,10 @@ Command addMeshes(CLI::App& app) {
   command->footer("Example:\n  tessera meshes");
   return {command, [] {
             const auto installed = installedMeshes();
-            for (const std::string& name : installed) say(stdout, "{}{}\n", kInstalledMesh, name);
-            for (const GeneratorDoc& generator : generatorDocs()) say(stdout, "generate:{}\n", generator.name);
+            for (const std::string& name : installed) support::say(stdout, "{}{}\n", kInstalledMesh, name);
+            for (const GeneratorDoc& generator : generatorDocs()) support::say(stdout, "generate:{}\n", generator.name);
             if (installed.empty())
-              say(stderr, "no mesh is installed: Debian's libcgal-demo, with its doc folder, has some\n");
+              support::say(stderr, "no mesh is installed: Debian's libcgal-demo, with its doc folder, has some\n");
             return ExitCode::kDone;
           }};
 }

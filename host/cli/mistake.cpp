@@ -35,7 +35,7 @@ const std::vector<std::pair<std::string, std::string>> kOtherWords{
 std::string meant(const std::string& typed, const std::vector<std::string>& known) {
   for (const auto& [other, ours] : kOtherWords)
     if (other == typed && std::ranges::find(known, ours) != known.end()) return ours;
-  return nearest(typed, known);
+  return support::nearest(typed, known);
 }
 
 std::vector<std::string> commandNames(const CLI::App& app) {
@@ -49,9 +49,9 @@ std::string noCommand(const CLI::App& app, const std::string& typed) {
   if (input) return fmt::format("{}: no command; did you mean 'tessera render {}'?", typed, typed);
   const auto names = commandNames(app);
   const std::string close = meant(typed, names);
-  return fmt::format(
-      "no command '{}'; {}", typed,
-      close.empty() ? whatThereIs(typed, names) : fmt::format("did you mean {}? 'tessera help' lists them", close));
+  return fmt::format("no command '{}'; {}", typed,
+                     close.empty() ? support::whatThereIs(typed, names)
+                                   : fmt::format("did you mean {}? 'tessera help' lists them", close));
 }
 
 std::string noOption(const CLI::App& command, const std::string& typed, const std::string& place) {
@@ -62,7 +62,7 @@ std::string noOption(const CLI::App& command, const std::string& typed, const st
     for (const auto& part : option->get_snames()) names.push_back("-" + part);
   }
   std::string close = meant(name, names);
-  const std::vector<std::string> axisNames = namesOf(allAxes(), &Axis::name);
+  const std::vector<std::string> axisNames = support::namesOf(allAxes(), &Axis::name);
   const auto axis = std::ranges::find(axisNames, name.substr(std::min(name.find_first_not_of('-'), name.size())));
   if (axis != axisNames.end() && takes(command, "--set")) close = fmt::format("--set {}=VALUE", *axis);
   return fmt::format("{}no option {}; {}'{} --help' lists them", place, name,

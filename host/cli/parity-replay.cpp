@@ -20,7 +20,7 @@ namespace {
 constexpr double kSeconds = 20;
 
 Scene replayOf(const Scene& scene) {
-  const TemporaryFolder folder(temporaryRoot(), "tessera-replay");
+  const support::TemporaryFolder folder(support::temporaryRoot(), "tessera-replay");
   const std::filesystem::path file = folder.path() / "scene.replay";
   writeReplay(file, scene);
   return readReplay(file);
@@ -107,7 +107,7 @@ std::optional<Reduced> reduceToReplay(const Scene& scene, const Side& different,
     const Pair whole = bothOf(replay);
     if (compare(whole.right, whole.found).equal()) return {};
     const std::size_t all = replay.triangles.size();
-    Progress progress("triangles left out", all);
+    support::Progress progress("triangles left out", all);
     return reduceTriangles(replay, suspectsOf(whole), differs, kSeconds,
                            [&](std::size_t left) { progress.at(all - left); });
   } catch (const Error& error) {

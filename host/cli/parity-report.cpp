@@ -26,11 +26,12 @@ std::string verdictTable(const std::vector<Outcome>& outcomes) {
     const Difference difference = outcome.run.difference.value_or(Difference{});
     const std::string probe = outcome.probe.results.empty() ? "not run" : verdictOf(outcome.probe);
     rows.push_back({outcome.attempt.device, outcome.attempt.route, outcome.run.device.name, probe,
-                    compared ? grouped(outcome.covered) : "-", grouped(difference.coverage), grouped(difference.id),
-                    grouped(difference.depth), grouped(difference.hits), grouped(difference.attribute),
-                    grouped(difference.colour), verdictText(outcome.verdict())});
+                    compared ? support::grouped(outcome.covered) : "-", support::grouped(difference.coverage),
+                    support::grouped(difference.id), support::grouped(difference.depth),
+                    support::grouped(difference.hits), support::grouped(difference.attribute),
+                    support::grouped(difference.colour), verdictText(outcome.verdict())});
   }
-  return table(rows);
+  return support::table(rows);
 }
 
 /// Stages down, devices across.
@@ -46,13 +47,14 @@ std::string timesTable(const std::vector<Outcome>& outcomes) {
     for (auto row = rows.begin() + 1; row != rows.end(); ++row) {
       const auto found =
           std::find_if(medians.begin(), medians.end(), [&](const auto& entry) { return entry.first == row->front(); });
-      row->push_back(found == medians.end() ? "-" : milliseconds(found->second));
+      row->push_back(found == medians.end() ? "-" : support::milliseconds(found->second));
     }
   }
   rows.push_back({frameLabel(outcomes.front().run)});
   for (const auto& outcome : outcomes)
-    rows.back().push_back(outcome.run.samples.empty() ? "-" : milliseconds(totalSpread(outcome.run.samples).median));
-  return table(rows);
+    rows.back().push_back(outcome.run.samples.empty() ? "-"
+                                                      : support::milliseconds(totalSpread(outcome.run.samples).median));
+  return support::table(rows);
 }
 
 std::string notes(const std::vector<Outcome>& outcomes) {
@@ -92,7 +94,7 @@ std::string parityReport(const Scene& scene, const std::vector<Outcome>& outcome
       "{}: {} triangles, {} x {}; pixels that differ from the oracle:\n\n{}\n{}\n{}parity: {}; {} of {} equal to the "
       "{} "
       "in every bit\n",
-      scene.name, grouped(scene.triangles.size()), scene.width, scene.height, verdictTable(outcomes),
+      scene.name, support::grouped(scene.triangles.size()), scene.width, scene.height, verdictTable(outcomes),
       timesTable(outcomes), notes(outcomes), overall, equal, outcomes.size(), to);
 }
 

@@ -49,7 +49,7 @@ std::vector<Attempt> listAttempts(const ParityOptions& options) {
 
 /// Where a replay goes that nobody named a place for.
 std::filesystem::path placeOfReplay(const Scene& scene) {
-  const std::filesystem::path folder = defaultCacheFolder() / "replays";
+  const std::filesystem::path folder = support::defaultCacheFolder() / "replays";
   std::error_code ignored;
   std::filesystem::create_directories(folder, ignored);
   return folder / (sceneHash(scene).substr(0, 12) + ".replay");
@@ -64,9 +64,9 @@ class Parity {
         device = openDevice(attempt.device, {.threads = options.threads});
     if (options.devices.empty()) {
       for (const DeviceKind& kind : deviceKinds())
-        for (const auto& note : kind.find().notes) say(stderr, "{}: {}\n", kind.name, note);
+        for (const auto& note : kind.find().notes) support::say(stderr, "{}: {}\n", kind.name, note);
       if (devices_.size() == 1 && devices_.contains(defaultDevice()))
-        say(stderr, "the {} alone is compared\n", kindOf(defaultDevice()).title);
+        support::say(stderr, "the {} alone is compared\n", kindOf(defaultDevice()).title);
     }
     scene_ = sceneOf(options);
   }
@@ -76,7 +76,7 @@ class Parity {
   std::vector<Outcome> run() {
     compileAhead();
     std::vector<Outcome> outcomes;
-    Progress progress("parity", attempts_.size() + 1);
+    support::Progress progress("parity", attempts_.size() + 1);
     progress.at(0, "oracle");
     Oracle oracle(scene_, attempts_.front().variant);
     for (const auto& attempt : attempts_) {
@@ -172,7 +172,7 @@ class Parity {
   Side sideOf(const Attempt& attempt) { return {*devices_[attempt.device], attempt.variant}; }
 
   /// Where no device is right: by a variant that is, on the same device.
-  std::string stageByWitness(const Attempt& different, Oracle& oracle, Progress& progress) {
+  std::string stageByWitness(const Attempt& different, Oracle& oracle, support::Progress& progress) {
     Device& device = *devices_[different.device];
     KernelCache own;
     for (const Witness& witness : witnesses(different.variant, !kernels_.files().empty())) {
@@ -212,29 +212,30 @@ ExitCode exitCode(const std::vector<Outcome>& outcomes) {
 }
 
 void writeReplayOf(Parity& parity, const std::vector<Outcome>& outcomes, const ParityOptions& options) {
-  flushStdout();  // what was found, before what may take a while
+  support::flushStdout();  // what was found, before what may take a while
   std::optional<Parity::Replay> replay;
   try {
     replay = parity.replay(outcomes);
   } catch (const Error& error) {
-    say(stderr, "no replay: {}\n", error.what());
+    support::say(stderr, "no replay: {}\n", error.what());
     return;
   }
   if (!replay) {
-    say(stderr,
+    support::say(
+        stderr,
         "no replay: it begins after the transform and ends before the shading, and between them all is equal\n");
     return;
   }
   const Scene& scene = replay->reduced.scene;
   const std::filesystem::path file =
       options.replay.empty() ? placeOfReplay(scene) : std::filesystem::path(options.replay);
-  OutputFile output(file);
+  support::OutputFile output(file);
   writeReplay(output.path(), scene);
   output.commit();
-  say(stderr, "wrote {}: {} of {} triangles{}, which show it again: tessera parity {}{}\n", file.string(),
-      grouped(scene.triangles.size()), grouped(parity.scene().triangles.size()),
-      replay->reduced.least ? " (none can be left out)" : " (the time for fewer was up)", quoted(file.string()),
-      replay->options);
+  support::say(stderr, "wrote {}: {} of {} triangles{}, which show it again: tessera parity {}{}\n", file.string(),
+               support::grouped(scene.triangles.size()), support::grouped(parity.scene().triangles.size()),
+               replay->reduced.least ? " (none can be left out)" : " (the time for fewer was up)",
+               quoted(file.string()), replay->options);
 }
 
 ExitCode runParity(const ParityOptions& options) {
@@ -246,9 +247,9 @@ ExitCode runParity(const ParityOptions& options) {
   std::vector<std::filesystem::path> outputs;
   if (!options.json.empty()) outputs.emplace_back(options.json);
   if (replays) outputs.emplace_back(options.replay);
-  checkApart(outputs, inputsOf(options));
-  if (replays) checkWhole(options.replay);
-  std::optional<AppendedFile> file;
+  support::checkApart(outputs, inputsOf(options));
+  if (replays) support::checkWhole(options.replay);
+  std::optional<support::AppendedFile> file;
   if (!options.json.empty()) file.emplace(options.json);
 
   Parity parity(options);
@@ -259,7 +260,8 @@ ExitCode runParity(const ParityOptions& options) {
     file->append(rows);
   }
   if (!options.quiet)
-    say(file && isStdout(options.json) ? stderr : stdout, "{}", parityReport(parity.scene(), outcomes));
+    support::say(file && support::isStdout(options.json) ? stderr : stdout, "{}",
+                 parityReport(parity.scene(), outcomes));
   const ExitCode code = exitCode(outcomes);
   if (code == ExitCode::kDifference && !replayed) writeReplayOf(parity, outcomes, options);
   return code;

@@ -33,7 +33,7 @@ std::string planJson(const Plan& plan, const KernelFiles& files) {
 std::string planTable(const Plan& plan, const KernelFiles& files) {
   std::vector<std::vector<std::string>> rows{{"pass", "plan", "why"}};
   for (const auto& entry : plan.entries) rows.push_back({entry.pass, entry.kept ? "kept" : "left out", entry.why});
-  std::string text = table(rows) + "\nvariant: " + settable(plan.resolved).text() + '\n';
+  std::string text = support::table(rows) + "\nvariant: " + settable(plan.resolved).text() + '\n';
   for (const auto& [stage, file] : files) text += fmt::format("kernel of {}: {}\n", stage, file.string());
   return text;
 }
@@ -44,7 +44,7 @@ ExitCode runPlan(const PlanOptions& options) {
   const auto device = deviceOf(options);
   const Plan plan = makePlan(sceneOf(options), variant, device->info());
   kernelRequests(plan, files);  // refuses a file of a stage that the plan leaves out, or that the device cannot take
-  say(stdout, "{}", options.json ? planJson(plan, files) : planTable(plan, files));
+  support::say(stdout, "{}", options.json ? planJson(plan, files) : planTable(plan, files));
   return ExitCode::kDone;
 }
 

@@ -41,7 +41,7 @@ std::string countersText(const Counters& counters) {
   for (const CounterDoc& doc : counterDocs()) {
     const auto found = counters.find(doc.name);
     if (found == counters.end() || found->second == 0) continue;
-    const std::string item = fmt::format(" {} {},", doc.name, grouped(found->second));
+    const std::string item = fmt::format(" {} {},", doc.name, support::grouped(found->second));
     if (text.size() - text.rfind('\n') + item.size() > 110) text += "\n ";
     text += item;
   }
@@ -53,18 +53,18 @@ std::string summary(const RenderOptions& options, const Run& run, std::uint64_t 
   const Scene& scene = *run.scene;
   const double pixels = static_cast<double>(scene.width) * scene.height;
   std::string text = fmt::format("{}: {} triangles, {} x {}, {} pixels covered ({:.1f} %)\n", scene.name,
-                                 grouped(scene.triangles.size()), scene.width, scene.height, grouped(covered),
-                                 100.0 * static_cast<double>(covered) / pixels);
+                                 support::grouped(scene.triangles.size()), scene.width, scene.height,
+                                 support::grouped(covered), 100.0 * static_cast<double>(covered) / pixels);
   text += fmt::format("{}{}, peak {} of buffers\n", run.device.name,
                       run.device.threads != 0 ? fmt::format(", {} threads", run.device.threads) : "",
-                      byteSize(run.peakBufferBytes));
+                      support::byteSize(run.peakBufferBytes));
   if (run.device.correctnessOnly) text += "a software driver: its times say nothing about a GPU\n";
   text += timesText(run);
   text += countersText(run.counters);
   text += errorSummary(run);
   if (!options.outputs.empty())
     text += fmt::format("{} ms to load OpenImageIO, beside the frame that warms up\n",
-                        milliseconds(1e6 * finishLoadingImages()));
+                        support::milliseconds(1e6 * finishLoadingImages()));
   for (const auto& output : options.outputs) text += fmt::format("wrote {}\n", output);
   return text;
 }
@@ -80,7 +80,7 @@ Framebuffer renderFrames(const RenderOptions& options, Device& device, KernelCac
   checkUserKernels(scene, kernels.files(), {{deviceName(options), asked}});
 
   Rasterizer rasterizer(device, kernels);
-  Progress progress("render", options.repeat + 1);
+  support::Progress progress("render", options.repeat + 1);
   Frame frame = measureRun(run, rasterizer, kernels, options.repeat, [&](unsigned done) {
     if (done == 1 && !options.outputs.empty())
       finishLoadingImages();  // or the frames that are timed would share the cores with it
@@ -106,9 +106,9 @@ ExitCode render(const RenderOptions& options) {
   std::vector<std::filesystem::path> outputs;
   for (const auto& output : options.outputs) outputs.push_back(images.emplace_back(output).path());
   if (!options.json.empty()) outputs.emplace_back(options.json);
-  checkApart(outputs, inputsOf(options));
-  const bool onStdout = std::ranges::any_of(outputs, isStdout);
-  std::optional<AppendedFile> rows;
+  support::checkApart(outputs, inputsOf(options));
+  const bool onStdout = std::ranges::any_of(outputs, support::isStdout);
+  std::optional<support::AppendedFile> rows;
   if (!options.json.empty()) rows.emplace(options.json);
   KernelCache kernels({.files = kernelFilesOf(options)});
   const auto device = deviceOf(options);
@@ -130,15 +130,16 @@ ExitCode render(const RenderOptions& options) {
     throw;
   }
   if (!scene.unseen && !scene.triangles.empty() && coveredPixels(image) == 0)
-    say(stderr,
+    support::say(
+        stderr,
         "warning: {}: no pixel is covered: all of it lies outside the view, between samples or edge-on to the camera\n",
         scene.name);
   const ImageFacts facts = images.empty() ? ImageFacts{} : factsOf(run);
   for (auto& output : images) output.write(image, run.attributeRange, facts);
   writeRow();
   if (options.quiet) return ExitCode::kDone;
-  say(onStdout ? stderr : stdout, "{}", summary(options, run, coveredPixels(image)));
-  say(stderr, "{}", timesWarning(run));
+  support::say(onStdout ? stderr : stdout, "{}", summary(options, run, coveredPixels(image)));
+  support::say(stderr, "{}", timesWarning(run));
   return ExitCode::kDone;
 }
 

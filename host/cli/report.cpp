@@ -60,19 +60,20 @@ Place bringRowsUpToDate(const fs::path& folder) {
 /// the message says how to make.
 std::string pythonProgram() {
   if (const char* python = std::getenv("TESSERA_PYTHON"); python != nullptr && *python != '\0') return python;
-  const fs::path python = home().python;
+  const fs::path python = support::home().python;
   if (access(python.c_str(), X_OK) == 0) return python;  // not so where it is a link to a Python that is not here
-  if (!home().installed)
+  if (!support::home().installed)
     fail(
         fmt::format("{}: not there; './dev build' installs what reports are made with, or set TESSERA_PYTHON to a "
                     "Python 3.11 that has what tools/report.txt lists",
                     python.string()));
-  const fs::path own = defaultCacheFolder() / "report", ownPython = own / "bin/python";
+  const fs::path own = support::defaultCacheFolder() / "report", ownPython = own / "bin/python";
   if (access(ownPython.c_str(), X_OK) == 0) return ownPython;
-  fail(fmt::format(
-      "{} does not run here; 'python3.11 -m venv {} && {} install --require-hashes -r {}' installs "
-      "what reports are made with, or set TESSERA_PYTHON to a Python 3.11 that has it",
-      python.string(), quoted(own.string()), quoted((own / "bin/pip").string()), quoted(home().pins.string())));
+  fail(
+      fmt::format("{} does not run here; 'python3.11 -m venv {} && {} install --require-hashes -r {}' installs "
+                  "what reports are made with, or set TESSERA_PYTHON to a Python 3.11 that has it",
+                  python.string(), quoted(own.string()), quoted((own / "bin/pip").string()),
+                  quoted(support::home().pins.string())));
 }
 
 ExitCode runReport(const ReportOptions& options) {
@@ -81,13 +82,14 @@ ExitCode runReport(const ReportOptions& options) {
   // -I: neither the user's own packages nor $PYTHONPATH may get between; -B: nothing is written beside the sources.
   const std::string schema = std::to_string(kRowSchemaVersion);
   std::vector<std::string> words{
-      pythonProgram(), "-I", "-B", home().report.string(), place.rows.string(), "--out", report, "--schema", schema};
+      pythonProgram(), "-I",       "-B",  support::home().report.string(), place.rows.string(), "--out",
+      report,          "--schema", schema};
   if (!options.exported.empty()) words.insert(words.end(), {"--export", options.exported});
   if (options.allDevices) words.push_back("--all-devices");
   std::vector<char*> arguments;
   for (auto& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
-  flushStdout();
+  support::flushStdout();
   if (options.quiet && std::freopen("/dev/null", "w", stdout) == nullptr) fail("/dev/null: could not be opened");
   // This process becomes Python, whose exit code and signals are then its own.
   execvp(arguments[0], arguments.data());

@@ -61,7 +61,7 @@ Command addSweep(CLI::App& app) {
 
 Command addSweepWorker(CLI::App& app) {
   auto* const command = app.add_subcommand("sweep-worker", "")->group("");
-  command->add_flag_callback("-q,--quiet", Progress::silence);
+  command->add_flag_callback("-q,--quiet", support::Progress::silence);
   return {command, [] { return static_cast<ExitCode>(harness::serveWorker()); }};
 }
 

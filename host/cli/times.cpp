@@ -12,13 +12,14 @@ namespace tessera::cli {
 std::string timesText(const Run& run) {
   const Spread frames = totalSpread(run.samples);
   std::vector<std::vector<std::string>> rows{{"stage", "ms"}};
-  for (const auto& [stage, median] : stageMedians(run.samples)) rows.push_back({stage, milliseconds(median)});
-  rows.push_back({frameLabel(run), milliseconds(frames.median)});
-  std::string text = table(rows);
+  for (const auto& [stage, median] : stageMedians(run.samples)) rows.push_back({stage, support::milliseconds(median)});
+  rows.push_back({frameLabel(run), support::milliseconds(frames.median)});
+  std::string text = support::table(rows);
   if (frames.count == 1) return text + "times of one frame; --repeat 20 would show how far frames are apart\n";
   return text + fmt::format("medians of {} frames; {} took {} to {} ms, its median is {} +- {} ms\n", frames.count,
-                            frameLabel(run), milliseconds(frames.min), milliseconds(frames.max),
-                            milliseconds(frames.median), milliseconds(frames.median * frames.medianError()));
+                            frameLabel(run), support::milliseconds(frames.min), support::milliseconds(frames.max),
+                            support::milliseconds(frames.median),
+                            support::milliseconds(frames.median * frames.medianError()));
 }
 
 std::string timesWarning(const Run& run) {
@@ -28,7 +29,7 @@ std::string timesWarning(const Run& run) {
       "warning: the frames took {} to {} ms: their median may be off by {:.0f} %; a quieter machine would help, or "
       "more "
       "than --repeat {}\n",
-      milliseconds(frames.min), milliseconds(frames.max), 100 * frames.medianError(), frames.count);
+      support::milliseconds(frames.min), support::milliseconds(frames.max), 100 * frames.medianError(), frames.count);
 }
 
 }  // namespace tessera::cli

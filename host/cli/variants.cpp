@@ -128,7 +128,7 @@ Command addVariants(CLI::App& app) {
   command->add_flag("--markdown", options->markdown, "print the table of the docs")->excludes(json);
   command->footer("Example:\n  tessera variants");
   return {command, [options] {
-            say(stdout, "{}", options->json ? axesJson() : options->markdown ? axesMarkdown() : axesText());
+            support::say(stdout, "{}", options->json ? axesJson() : options->markdown ? axesMarkdown() : axesText());
             return ExitCode::kDone;
           }};
 }

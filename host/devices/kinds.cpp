@@ -33,7 +33,7 @@ void registerDevice(DeviceKind kind) {
     failUsage(fmt::format("device kind {}: there is one of that name; another name would do", kind.name));
   if (kind.routes.empty())
     failUsage(fmt::format("device kind {}: it takes no route; one or more of {} would do", kind.name,
-                          fmt::join(namesOf(routes(), &RouteInfo::name), ", ")));
+                          fmt::join(support::namesOf(routes(), &RouteInfo::name), ", ")));
   for (const std::string& route : kind.routes) try {
       routeNamed(route);
     } catch (const Error& error) {

@@ -26,11 +26,12 @@ std::string selectOf(const DeviceKind& kind, std::string_view name) {
     for (const FoundDevice& device : kind.find().devices) {
       names.push_back(nameOf(kind, device));
       known.push_back(device.select.empty() ? names.back() : fmt::format("{} ({})", names.back(), device.name));
-      if (!kind.nickname.empty() && lowerCase(name) == kind.nickname) part = kind.name;
-      if (kind.selects && !name.empty() && lowerCase(device.name).find(lowerCase(name)) != std::string::npos)
+      if (!kind.nickname.empty() && support::lowerCase(name) == kind.nickname) part = kind.name;
+      if (kind.selects && !name.empty() &&
+          support::lowerCase(device.name).find(support::lowerCase(name)) != std::string::npos)
         part = kind.name + ":" + name;
     }
-  if (part.empty()) part = nearest(name, names);
+  if (part.empty()) part = support::nearest(name, names);
   failUsage(fmt::format("--device {}: no such device; {}there {} {}", name,
                         part.empty() ? "" : fmt::format("did you mean {}? Otherwise ", part),
                         known.size() == 1 ? "is" : "are", fmt::join(known, ", ")));
@@ -96,7 +97,7 @@ std::string deviceForms(bool explained) {
   return forms.empty() ? last : fmt::format("{} or {}", fmt::join(forms, ", "), last);
 }
 
-std::vector<std::string> kindNames() { return namesOf(deviceKinds(), &DeviceKind::name); }
+std::vector<std::string> kindNames() { return support::namesOf(deviceKinds(), &DeviceKind::name); }
 
 Route routeOf(const DeviceInfo& device, const Variant& variant) {
   const std::string asked = variant.get("route");

@@ -39,7 +39,8 @@ struct Box {
 class Header {
  public:
   explicit Header(const fs::path& path) : name_(path.string()), file_(path, std::ios::binary | std::ios::ate) {
-    if (!file_) throw Error(codeOf(errno), fmt::format("{}: cannot be opened: {}", name_, std::strerror(errno)));
+    if (!file_)
+      throw Error(support::codeOf(errno), fmt::format("{}: cannot be opened: {}", name_, std::strerror(errno)));
     bytes_ = static_cast<std::uint64_t>(file_.tellg());
     file_.seekg(0);
     if (number<std::uint32_t>() != kMagic) broken("it does not begin as one");

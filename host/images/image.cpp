@@ -105,7 +105,7 @@ Format formatOf(const std::string& name) {
 struct ImageOutput::State {
   Format format;
   fs::path path;
-  OutputFile file;
+  support::OutputFile file;
 
   explicit State(const std::string& name) : format(formatOf(name)), path(splitName(name).second), file(path) {}
 
@@ -230,7 +230,7 @@ ImageReader::ImageReader(const fs::path& path, std::uint64_t limit) : state_(std
   s.name = path.string();
   if (extensionOf(path) != ".exr") failUsage(fmt::format("{}: only an .exr holds ids and depth", s.name));
   // Read twice, from its beginning: a pipe will not do.
-  if (const std::string why = whyNoFile(path); !why.empty()) failUsage(fmt::format("{}: {}", s.name, why));
+  if (const std::string why = support::whyNoFile(path); !why.empty()) failUsage(fmt::format("{}: {}", s.name, why));
   checkExr(path, limit);
   std::string why;
   s.file = imageModule().openExr(s.name, why);

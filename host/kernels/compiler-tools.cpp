@@ -37,7 +37,7 @@ std::string identity(const fs::path& program) {
 std::string firstLine(const std::string& text) { return text.substr(0, text.find('\n')); }
 
 std::string run(const std::vector<std::string>& arguments) {
-  const ProcessResult result = runProcess(arguments);
+  const support::ProcessResult result = support::runProcess(arguments);
   if (!result.ok())
     fail(fmt::format("'{}' ended with {} and {}", fmt::join(arguments, " "),
                      result.status > 128 ? fmt::format("signal {}", result.status - 128)
@@ -61,19 +61,20 @@ void probe(uint3 group : SV_GroupID)
 
 /// Throws unless this slangc will do. Only a pass is remembered: a missing optimiser may be put beside it at any time.
 std::string checkSlangc(const fs::path& slangc) {
-  const TemporaryFolder work(temporaryRoot(), "tessera-slangc");
+  const support::TemporaryFolder work(support::temporaryRoot(), "tessera-slangc");
   const fs::path source = work.path() / "probe.slang", module = work.path() / "probe.spv";
-  writeInto(source, kProbeModule);
-  const ProcessResult result = runProcess({slangc.string(), source.string(), "-target", "spirv", "-O1", "-fp-mode",
-                                           "precise", "-entry", "probe", "-stage", "compute", "-o", module.string()},
-                                          work.path());
-  if (!result.ok() || !fs::exists(module)) checkWritten(work.path(), result.output);
+  support::writeInto(source, kProbeModule);
+  const support::ProcessResult result =
+      support::runProcess({slangc.string(), source.string(), "-target", "spirv", "-O1", "-fp-mode", "precise", "-entry",
+                           "probe", "-stage", "compute", "-o", module.string()},
+                          work.path());
+  if (!result.ok() || !fs::exists(module)) support::checkWritten(work.path(), result.output);
   if (!result.ok() || !fs::exists(module)) fail("cannot compile a small kernel to SPIR-V: " + firstLine(result.output));
   std::vector<std::string> violations;
   try {
     violations = checkSpirv(module);
   } catch (const Error&) {
-    checkWritten(work.path(), "");  // slangc says nothing of a file that it could not write to its end
+    support::checkWritten(work.path(), "");  // slangc says nothing of a file that it could not write to its end
     throw;
   }
   if (!violations.empty()) fail("its SPIR-V is not exact: " + violations[0]);
@@ -98,8 +99,8 @@ const std::string& processorIdentity() {
 }  // namespace
 
 ToolMemory::ToolMemory(const fs::path& folder) : file_(folder / "tools.json") {
-  checkOwn(folder);
-  checkOwn(file_);
+  support::checkOwn(folder);
+  support::checkOwn(file_);
   std::error_code none;
   if (!fs::is_regular_file(file_, none)) return;  // a folder is replaced by the first answer
   std::ifstream file(file_);
@@ -116,8 +117,8 @@ std::string ToolMemory::recall(const std::string& question, const fs::path& prog
   if (const auto known = answers_.find(key); known != answers_.end()) return known->second;
   const std::string answer = answers_[key] = ask();
   try {
-    makeOwnFolder(file_.parent_path());
-    writeOwn(file_, nlohmann::json(answers_).dump(1));
+    support::makeOwnFolder(file_.parent_path());
+    support::writeOwn(file_, nlohmann::json(answers_).dump(1));
   } catch (const std::system_error&) {
     // it is asked again next time; where nothing can be kept, the kernels say so
   }
@@ -129,9 +130,9 @@ ToolInfo chooseSlangc(ToolMemory& memory, const fs::path& pinned) {
     try {
       memory.recall("check", path, [&] { return checkSlangc(path); });
       return "";
-    } catch (const WriteError&) {
+    } catch (const support::WriteError&) {
       throw;
-    } catch (const ShortageError&) {
+    } catch (const support::ShortageError&) {
       throw;
     } catch (const Error& error) {
       return error.what();
@@ -145,9 +146,9 @@ ToolInfo chooseSlangc(ToolMemory& memory, const fs::path& pinned) {
                                   }),
                     origin};
   };
-  const std::string wanted = environment("SLANGC");
+  const std::string wanted = support::environment("SLANGC");
   if (!wanted.empty()) {
-    const fs::path path = findProgram(wanted);
+    const fs::path path = support::findProgram(wanted);
     if (path.empty() || access(path.c_str(), X_OK) != 0 || fs::is_directory(path))
       failUsage(fmt::format(
           "SLANGC={}: no such program; name a slangc, or unset it to use PATH's or the one that ./dev fetches",
@@ -158,13 +159,13 @@ ToolInfo chooseSlangc(ToolMemory& memory, const fs::path& pinned) {
     return chosen(path, "SLANGC");
   }
   std::string rejected;
-  if (const fs::path path = findProgram("slangc"); !path.empty()) {
+  if (const fs::path path = support::findProgram("slangc"); !path.empty()) {
     const std::string why = fault(path);
     if (why.empty()) return chosen(path, "PATH");
     rejected = fmt::format(" ({} in PATH: {})", path.string(), why);
   }
   if (access(pinned.c_str(), X_OK) != 0)
-    failUsage(home().installed
+    failUsage(support::home().installed
                   ? fmt::format("no slangc{}: {} is not there; set SLANGC to a slangc of Slang 2026.14.1 or later, or "
                                 "install again from a clone in which `./dev build` ran",
                                 rejected, pinned.string())
@@ -176,8 +177,8 @@ ToolInfo chooseSlangc(ToolMemory& memory, const fs::path& pinned) {
 
 CxxInfo resolveCxx(ToolMemory& memory) {
   CxxInfo info;
-  const std::string chosen = environment("TESSERA_CXX"), wanted = chosen.empty() ? TESSERA_CXX : chosen;
-  info.path = findProgram(wanted);
+  const std::string chosen = support::environment("TESSERA_CXX"), wanted = chosen.empty() ? TESSERA_CXX : chosen;
+  info.path = support::findProgram(wanted);
   if (info.path.empty() || access(info.path.c_str(), X_OK) != 0)
     failUsage(chosen.empty()
                   ? fmt::format("{}: no C++ compiler is there, and kernels for the CPU need one: install it (Debian: "
@@ -194,7 +195,7 @@ CxxInfo resolveCxx(ToolMemory& memory) {
       std::string macros = run(question);
       if (macros.find("#define __cplusplus ") != std::string::npos) return macros;
       why = fmt::format("'{}' names no macro __cplusplus", fmt::join(question, " "));
-    } catch (const ShortageError&) {
+    } catch (const support::ShortageError&) {
       throw;
     } catch (const Error& error) {
       why = error.what();
@@ -208,8 +209,8 @@ CxxInfo resolveCxx(ToolMemory& memory) {
       info.targetMacros.find("#define __clang__ ") != std::string::npos;  // c++ and cc1plus wrappers hide who they are
   info.version = (clang ? "clang++ " : "g++ ") + version.substr(version.find_last_of(' ') + 1);
   info.target = memory.recall("target" + machine, info.path, [&]() -> std::string {
-    const ProcessResult help =
-        runProcess({compiler, "-march=native", "-Q", "--help=target"});  // GCC's way; others have no short name for it
+    const support::ProcessResult help = support::runProcess(
+        {compiler, "-march=native", "-Q", "--help=target"});  // GCC's way; others have no short name for it
     std::istringstream words(help.output);
     for (std::string word; help.ok() && words >> word;)
       if (word == "-march=" && words >> word) return word;
@@ -219,13 +220,13 @@ CxxInfo resolveCxx(ToolMemory& memory) {
 }
 
 ToolInfo resolveGlslang(ToolMemory& memory) {
-  const fs::path path = findProgram("glslangValidator");
+  const fs::path path = support::findProgram("glslangValidator");
   if (path.empty()) failUsage("no glslangValidator in PATH: the GLSL route needs it (Debian package glslang-tools)");
   return {path, memory.recall("version", path, [&] { return firstLine(run({path.string(), "--version"})); }), "PATH"};
 }
 
 std::string cpuDriverText() {
-  ToolMemory memory(defaultCacheFolder());
+  ToolMemory memory(support::defaultCacheFolder());
   try {
     const CxxInfo cxx = resolveCxx(memory);
     return fmt::format("{}, {}", cxx.version, cxx.target);

@@ -50,8 +50,8 @@ const std::vector<EmitTarget>& emitTargets() {
 const EmitTarget& emitTarget(std::string_view name) {
   const auto found = std::ranges::find(emitTargets(), name, &EmitTarget::name);
   if (found != emitTargets().end()) return *found;
-  failUsage(
-      fmt::format("--emit {}: no such target; {}", name, whatThereIs(name, namesOf(emitTargets(), &EmitTarget::name))));
+  failUsage(fmt::format("--emit {}: no such target; {}", name,
+                        support::whatThereIs(name, support::namesOf(emitTargets(), &EmitTarget::name))));
 }
 
 Emitted emitKernel(KernelCache& cache, const KernelRequest& request, const EmitTarget& target) {
@@ -61,7 +61,7 @@ Emitted emitKernel(KernelCache& cache, const KernelRequest& request, const EmitT
     emitted.bytes = target.name == "spirv" ? readText(cache.get(request).binary)  // the very module that runs
                                            : std::move(written.text);
     emitted.reflection = std::move(written.reflection);
-  } catch (const WriteError&) {
+  } catch (const support::WriteError&) {
     throw;
   } catch (const Error& error) {
     emitted.complaint = error.what();

@@ -46,7 +46,7 @@ std::vector<std::string> splitWords(const std::string& text) {
 /// $TESSERA_SLANG_SOURCES, else what was installed with this program, else the folder that this build came from.
 fs::path defaultSlangSources() {
   if (const char* folder = std::getenv("TESSERA_SLANG_SOURCES"); folder != nullptr && *folder != '\0') return folder;
-  return home().slang;
+  return support::home().slang;
 }
 
 /// An entry is a folder with the binary and this: the hash of the binary, and the interface with its own.
@@ -54,14 +54,15 @@ constexpr const char* kInterfaceFile = "interface.json";
 
 std::string entryText(const KernelInterface& interface, const std::string& binary) {
   const nlohmann::json stored = toJson(interface);
-  return nlohmann::json{{"interface", stored}, {"interfaceHash", sha256(stored.dump())}, {"binaryHash", sha256(binary)}}
+  return nlohmann::json{
+      {"interface", stored}, {"interfaceHash", support::sha256(stored.dump())}, {"binaryHash", support::sha256(binary)}}
       .dump(1);
 }
 
 std::optional<KernelInterface> readWhole(const fs::path& entry, Route route) try {
   const nlohmann::json stored = nlohmann::json::parse(readText(entry / kInterfaceFile));
-  if (stored.at("binaryHash") != sha256(readText(entry / routeInfo(route).binary))) return {};
-  if (stored.at("interfaceHash") != sha256(stored.at("interface").dump())) return {};
+  if (stored.at("binaryHash") != support::sha256(readText(entry / routeInfo(route).binary))) return {};
+  if (stored.at("interfaceHash") != support::sha256(stored.at("interface").dump())) return {};
   return interfaceFromJson(stored.at("interface"));
 } catch (const nlohmann::json::exception&) {
   return {};
@@ -73,7 +74,7 @@ std::optional<KernelInterface> readWhole(const fs::path& entry, Route route) try
 std::optional<KernelInterface> readEntry(const fs::path& entry, Route route) {
   // They run as this process does: whoever can write them is it.
   for (const fs::path& path : {entry.parent_path(), entry, entry / kInterfaceFile, entry / routeInfo(route).binary})
-    checkOwn(path);
+    support::checkOwn(path);
   return readWhole(entry, route);
 }
 
@@ -102,7 +103,8 @@ struct KernelCache::State {
   }
 
   const ToolInfo& slangcInUse() {
-    return tool(slangc, [&](ToolMemory& known) { return chooseSlangc(known, slangcOf(options.slangSources)); });
+    return tool(slangc,
+                [&](ToolMemory& known) { return chooseSlangc(known, support::slangcOf(options.slangSources)); });
   }
 
   CompileSettings settings(const KernelRequest& request) {
@@ -148,7 +150,7 @@ struct KernelCache::State {
       for (const std::string& flag : settings.cxxFlags) add(flag);
       add(settings.boundsChecks ? "bounds checks 2" : "");
     }
-    return sha256(all);
+    return support::sha256(all);
   }
 
   /// Where a kernel is kept, and what it is made from.
@@ -173,17 +175,17 @@ struct KernelCache::State {
                        const std::map<fs::path, std::string>& sources, const fs::path& entry) try {
     if (std::error_code ignored; fs::exists(entry, ignored) && !fs::is_directory(entry, ignored))
       fs::remove(entry, ignored);
-    makeOwnFolder(entry);
-    const TemporaryFolder work(options.folder, "work");
+    support::makeOwnFolder(entry);
+    const support::TemporaryFolder work(options.folder, "work");
     const KernelInterface interface = compileKernel(request, settings, sources, work.path());
     const fs::path made = work.path() / routeInfo(request.route).binary, binary = entry / made.filename();
     const std::string text = entryText(interface, readText(made));
-    makeOwn(made);
-    replaceOwn(made, binary);
-    writeOwn(entry / kInterfaceFile, text);
+    support::makeOwn(made);
+    support::replaceOwn(made, binary);
+    support::writeOwn(entry / kInterfaceFile, text);
     return interface;
   } catch (const std::system_error& error) {
-    throw Error(codeOf(error.code().value()),
+    throw Error(support::codeOf(error.code().value()),
                 fmt::format("kernel cache: {}: {}; a TESSERA_CACHE that can be written and has room would do",
                             entry.string(), error.code().message()));
   }
@@ -192,7 +194,7 @@ struct KernelCache::State {
 KernelCache::KernelCache() : KernelCache(Options{}) {}
 
 KernelCache::KernelCache(Options options) {
-  if (options.folder.empty()) options.folder = defaultCacheFolder();
+  if (options.folder.empty()) options.folder = support::defaultCacheFolder();
   if (options.slangSources.empty()) options.slangSources = defaultSlangSources();
   options.folder = fs::absolute(options.folder).lexically_normal();
   options.slangSources = fs::absolute(options.slangSources).lexically_normal();
@@ -200,7 +202,7 @@ KernelCache::KernelCache(Options options) {
     failUsage(fmt::format(
         "{}: no such folder; the kernels' Slang sources are looked for there: set TESSERA_SLANG_SOURCES to them",
         options.slangSources.string()));
-  checkOwn(options.folder);
+  support::checkOwn(options.folder);
   state_ = std::make_unique<State>(std::move(options));
 }
 
@@ -217,7 +219,7 @@ CompiledKernel KernelCache::get(const KernelRequest& request) {
                         request.route, entry / routeInfo(request.route).binary,
                         hash,          {},
                         request.file,  ""};
-  if (!request.file.empty()) kernel.fileHash = sha256(sources.at(request.file.lexically_normal()));
+  if (!request.file.empty()) kernel.fileHash = support::sha256(sources.at(request.file.lexically_normal()));
   if (auto found = readEntry(entry, request.route)) {
     ++state_->hits;
     kernel.interface = std::move(*found);

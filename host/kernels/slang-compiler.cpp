@@ -70,7 +70,7 @@ std::string describe(const KernelRequest& request) {
 }
 
 void runCompiler(const KernelRequest& request, const std::vector<std::string>& arguments, const fs::path& made) {
-  const ProcessResult result = runProcess(arguments, made.parent_path());
+  const support::ProcessResult result = support::runProcess(arguments, made.parent_path());
   if (!result.ok() || !fs::exists(made))
     throw Error(request.file.empty() ? ExitCode::kFailure : ExitCode::kUsage,  // a user's kernel is input
                 fmt::format("{}: {}: {}", describe(request), fs::path(arguments[0]).filename().string(),
@@ -109,8 +109,8 @@ void checkDependencies(const std::string& rule, const std::map<fs::path, std::st
 std::vector<std::string> slangCommand(const KernelRequest& request, const ToolInfo& slangc,
                                       const fs::path& slangSources, const std::vector<std::string>& flags,
                                       const fs::path& work, const fs::path& made) {
-  writeInto(work / "settings.slang", request.modules.settings);
-  writeInto(work / "variant.slang", request.modules.variant);
+  support::writeInto(work / "settings.slang", request.modules.settings);
+  support::writeInto(work / "variant.slang", request.modules.variant);
   const fs::path source = request.file.empty() ? slangSources / request.source : request.file;
   std::vector<std::string> arguments{slangc.path.string(), source.string(), "-I", work.string()};
   for (const fs::path& folder : searchFolders(slangSources)) append(arguments, {"-I", folder.string()});
@@ -123,7 +123,9 @@ std::vector<std::string> slangCommand(const KernelRequest& request, const ToolIn
 void compileCpp(const KernelRequest& request, const CompileSettings& settings, const std::string& generated,
                 const fs::path& work) {
   const fs::path source = work / "kernel.cpp", made = work / routeInfo(request.route).binary;
-  writeInto(source, (settings.boundsChecks ? kBoundsChecks : "") + machineText(settings.slangSources, usesLanes(generated), request.modules.laneWidth) + generated);
+  support::writeInto(source, (settings.boundsChecks ? kBoundsChecks : "") +
+                                 machineText(settings.slangSources, usesLanes(generated), request.modules.laneWidth) +
+                                 generated);
   std::vector<std::string> arguments{settings.cxx.path.string()};
   append(arguments, cxxBaseFlags());
   append(arguments, settings.cxxFlags);
@@ -146,7 +148,7 @@ std::vector<std::uint32_t> compileGlsl(const KernelRequest& request, const Compi
 
 /// A user's GLSL, as it is: what it does not call `precise` is the user's choice.
 KernelInterface compileUsersGlsl(const KernelRequest& request, const CompileSettings& settings, const fs::path& work) {
-  writeInto(work / "settings.glsl", glslSettings(request.modules.settings));
+  support::writeInto(work / "settings.glsl", glslSettings(request.modules.settings));
   return readSpirvInterface(compileGlsl(request, settings, request.file, work));
 }
 
@@ -204,11 +206,11 @@ KernelInterface compileKernel(const KernelRequest& request, const CompileSetting
   try {
     return languageOf(request) == Language::kGlsl ? compileUsersGlsl(request, settings, work)
                                                   : compileSlang(request, settings, sources, work);
-  } catch (const WriteError&) {
+  } catch (const support::WriteError&) {
     throw;
   } catch (const Error& error) {
     const std::string what = error.what(), name = describe(request);
-    checkWritten(work, what);
+    support::checkWritten(work, what);
     const ExitCode code = request.file.empty() ? error.code() : ExitCode::kUsage;
     throw Error(code, what.rfind(name, 0) == 0 ? what : name + ": " + what);
   }
@@ -216,7 +218,7 @@ KernelInterface compileKernel(const KernelRequest& request, const CompileSetting
 
 Written writtenBySlang(const KernelRequest& request, const std::string& target, const ToolInfo& slangc,
                        const fs::path& slangSources) {
-  const TemporaryFolder work(temporaryRoot(), "tessera-emit");
+  const support::TemporaryFolder work(support::temporaryRoot(), "tessera-emit");
   const fs::path made = work.path() / "made", reflection = work.path() / "reflection.json";
   const RouteInfo& route = routeInfo(request.route);
   std::vector<std::string> flags{"-target", target, "-fp-mode", "precise", "-line-directive-mode", "none"};
@@ -234,10 +236,10 @@ Written writtenBySlang(const KernelRequest& request, const std::string& target, 
     // WGSL reserves this word (W3C, WebGPU Shading Language, section 16.2).
     if (target == "wgsl") text = std::regex_replace(text, std::regex(R"(\battribute\b)"), "attribute_0");
     return {std::move(text), readText(reflection)};
-  } catch (const WriteError&) {
+  } catch (const support::WriteError&) {
     throw;
   } catch (const Error& error) {
-    checkWritten(work.path(), error.what());
+    support::checkWritten(work.path(), error.what());
     throw;
   }
 }

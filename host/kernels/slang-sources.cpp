@@ -81,9 +81,9 @@ std::string readText(const fs::path& path, ExitCode refusal) {
   const auto refuse = [&](const std::string& why, ExitCode code) {
     throw Error(code == ExitCode::kUsage ? refusal : code, fmt::format("{}: {}", path.string(), why));
   };
-  if (const std::string why = whyNoFile(path); !why.empty()) refuse(why, ExitCode::kUsage);
+  if (const std::string why = support::whyNoFile(path); !why.empty()) refuse(why, ExitCode::kUsage);
   std::ifstream file(path, std::ios::binary | std::ios::ate);
-  if (!file) refuse(fmt::format("cannot be read: {}", std::strerror(errno)), codeOf(errno));
+  if (!file) refuse(fmt::format("cannot be read: {}", std::strerror(errno)), support::codeOf(errno));
   std::string text(static_cast<std::size_t>(std::max<std::streamoff>(file.tellg(), 0)), '\0');
   file.seekg(0);
   file.read(text.data(), static_cast<std::streamsize>(text.size()));

@@ -45,7 +45,7 @@ std::vector<std::uint32_t> readSpirv(const std::filesystem::path& module) {
 }
 
 void writeSpirv(const std::filesystem::path& module, const std::vector<std::uint32_t>& words) {
-  writeInto(module, {reinterpret_cast<const char*>(words.data()), words.size() * 4});
+  support::writeInto(module, {reinterpret_cast<const char*>(words.data()), words.size() * 4});
 }
 
 }  // namespace tessera

@@ -82,7 +82,7 @@ Language languageOf(const KernelRequest& request) {
 }
 
 KernelRequest requestOf(KernelRequest own, const fs::path& file) {
-  if (const std::string why = whyNoFile(file); !why.empty())
+  if (const std::string why = support::whyNoFile(file); !why.empty())
     failUsage(fmt::format("{}: {}", describe(own.stage, file), why));
   const Language language = languageOf(file);
   if (language == Language::kGlsl && !routeInfo(own.route).takesGlsl)

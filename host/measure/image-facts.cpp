@@ -24,9 +24,9 @@ AxisKind kindOf(const std::string& axisName, const std::string& value) {
 /// Clip space from the input's coordinates, row-major: M translate(-O), in double where there is an origin O.
 std::string cameraText(const Scene& scene) {
   if (scene.origin == glm::dvec3(0)) return fmt::format("{}", fmt::join(scene.clipFromObject, " "));
-  DoubleMatrix clipFromPositions;
+  support::DoubleMatrix clipFromPositions;
   std::ranges::copy(scene.clipFromObject, clipFromPositions.begin());
-  return fmt::format("{}", fmt::join(translated(clipFromPositions, -scene.origin), " "));
+  return fmt::format("{}", fmt::join(support::translated(clipFromPositions, -scene.origin), " "));
 }
 
 }  // namespace

@@ -58,8 +58,8 @@ class Patience {
           std::unique_lock lock(mutex_);
           if (done_.wait_for(lock, kPatience, [&] { return ended_; })) return;
           const char* const kernel = runningKernel();
-          say(stderr, "{} runs since {} s, with bounds checks; Ctrl-C stops it\n",
-              kernel != nullptr ? kernel : "the checked frame", kPatience.count());
+          support::say(stderr, "{} runs since {} s, with bounds checks; Ctrl-C stops it\n",
+                       kernel != nullptr ? kernel : "the checked frame", kPatience.count());
         }) {}
   ~Patience() {
     const std::lock_guard lock(mutex_);

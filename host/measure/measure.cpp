@@ -22,7 +22,7 @@ namespace tessera {
 void printNotes(const Scene& scene) {
   static std::set<std::string> printed;
   for (const std::string& note : scene.notes)
-    if (printed.insert(note).second) say(stderr, "warning: {}\n", note);
+    if (printed.insert(note).second) support::say(stderr, "warning: {}\n", note);
 }
 
 void compileKernels(KernelCache& kernels, const std::vector<Plan>& plans) {
@@ -41,12 +41,12 @@ void compileKernels(KernelCache& kernels, const std::vector<Plan>& plans) {
       if (error.code() == ExitCode::kUsage) throw;  // a device that cannot run a user's kernel says so when it renders
     }
   }
-  Progress progress("compiling kernels", requests.size());
+  support::Progress progress("compiling kernels", requests.size());
   std::set<std::string> warnings;
   for (const auto& kernel : kernels.getAll(requests, [&](std::size_t done, std::size_t) { progress.at(done); }))
     if (!kernel.file.empty()) warnings.insert(exactnessWarning(kernel));
   for (const auto& warning : warnings)
-    if (!warning.empty()) say(stderr, "warning: {}\n", warning);
+    if (!warning.empty()) support::say(stderr, "warning: {}\n", warning);
 }
 
 Run beginRun(const Scene& scene, const Variant& variant, const Device& device, const KernelCache& kernels) {

@@ -19,15 +19,17 @@ std::string oracleLine(const Run& run) {
   const Difference& d = *run.difference;
   std::string text = "error against the oracle, pixels: ";
   if (run.variant.get("commit") == "count")
-    text += fmt::format("hits {}", grouped(d.hits));
+    text += fmt::format("hits {}", support::grouped(d.hits));
   else
-    text += fmt::format("coverage {}, ids {}, depth {} (at most {:.3g})", grouped(d.coverage), grouped(d.id),
-                        grouped(d.depth), *d.depthMaxAbs);
-  if (!d.id && run.wrongWinners) text += fmt::format(", wrong winners by colour {}", grouped(*run.wrongWinners));
-  if (d.attribute) text += fmt::format(", values {}", grouped(d.attribute));
+    text += fmt::format("coverage {}, ids {}, depth {} (at most {:.3g})", support::grouped(d.coverage),
+                        support::grouped(d.id), support::grouped(d.depth), *d.depthMaxAbs);
+  if (!d.id && run.wrongWinners)
+    text += fmt::format(", wrong winners by colour {}", support::grouped(*run.wrongWinners));
+  if (d.attribute) text += fmt::format(", values {}", support::grouped(d.attribute));
   if (isApproximate(run.variant) && d.colour)
-    text += *d.colour == 0 ? "; colours equal"
-                           : fmt::format("; colours {}, {:.2f} dB from exact ones", grouped(d.colour), *d.psnr);
+    text += *d.colour == 0
+                ? "; colours equal"
+                : fmt::format("; colours {}, {:.2f} dB from exact ones", support::grouped(d.colour), *d.psnr);
   return text + '\n';
 }
 
@@ -92,7 +94,7 @@ Difference::Count wrongWinners(const Variant& resolved, const Difference& differ
 std::string errorSummary(const Run& run) {
   std::string text;
   if (run.difference) text += oracleLine(run);
-  if (run.hitCountNotOne) text += fmt::format("pixels hit, but not once: {}\n", grouped(*run.hitCountNotOne));
+  if (run.hitCountNotOne) text += fmt::format("pixels hit, but not once: {}\n", support::grouped(*run.hitCountNotOne));
   if (run.attributeError) text += attributeLine(run);
   return text;
 }

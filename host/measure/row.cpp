@@ -125,7 +125,7 @@ Json provenanceJson(const Run& run, std::chrono::system_clock::time_point now) {
   if (run.device.threads != 0) json["threads"] = run.device.threads;
   if (run.device.correctnessOnly) json["correctness_only"] = true;  // a software driver: its times rank nothing
   json["os"] = osName();
-  json["cpu"] = processorName();
+  json["cpu"] = support::processorName();
   if (run.seed) json["seed"] = *run.seed;
   json["utc"] = utcText(now);
   return json;
@@ -206,7 +206,7 @@ std::string rowText(const Run& run) {
   if (run.peakBufferBytes != 0) row["memory"] = {{"peak_buffer_bytes", run.peakBufferBytes}};
   if (!run.plan.empty()) row["plan"] = planJson(run.plan);
   row["provenance"] = provenanceJson(run, now);
-  return visible(row.dump(-1, ' ', false, Json::error_handler_t::replace));
+  return support::visible(row.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
 }  // namespace tessera

@@ -48,7 +48,8 @@ const BufferDoc* findBuffer(std::string_view name) {
 const BufferDoc& bufferDoc(std::string_view name) {
   const BufferDoc* const found = findBuffer(name);
   if (found == nullptr)
-    fail(fmt::format("no buffer is called `{}`; {}", name, whatThereIs(name, namesOf(buffers(), &BufferDoc::name))));
+    fail(fmt::format("no buffer is called `{}`; {}", name,
+                     support::whatThereIs(name, support::namesOf(buffers(), &BufferDoc::name))));
   return *found;
 }
 

@@ -44,7 +44,8 @@ const std::vector<Stage>& stages() {
 const Stage& stageOf(std::string_view name) {
   const auto found = std::ranges::find(stages(), name, &Stage::name);
   if (found != stages().end()) return *found;
-  fail(fmt::format("no stage is called `{}`; {}", name, whatThereIs(name, namesOf(stages(), &Stage::name))));
+  fail(fmt::format("no stage is called `{}`; {}", name,
+                   support::whatThereIs(name, support::namesOf(stages(), &Stage::name))));
 }
 
 bool isBehindVisibility(std::string_view stage) { return stageOf(stage).moment >= Moment::kVisible; }

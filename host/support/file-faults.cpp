@@ -9,7 +9,7 @@
 
 #include "host/support/output-place.h"
 
-namespace tessera {
+namespace tessera::support {
 
 std::string whyNoFile(const std::filesystem::path& path) {
   struct stat about {};
@@ -28,4 +28,4 @@ ExitCode codeOf(int error) {
   return std::ranges::find(kShortages, error) != kShortages.end() ? ExitCode::kFailure : ExitCode::kUsage;
 }
 
-}  // namespace tessera
+}  // namespace tessera::support

@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <string>
 
-namespace tessera {
+namespace tessera::support {
 
 /// "" for a file, through links too; else "no such file", "is a folder; a file would be right", or why it is not known.
 std::string whyNoFile(const std::filesystem::path& path);
@@ -22,4 +22,4 @@ inline constexpr std::chrono::seconds kPipeTime{10};
 /// what is wrong with the name, such as a permission.
 ExitCode codeOf(int error);
 
-}  // namespace tessera
+}  // namespace tessera::support

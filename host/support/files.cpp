@@ -14,7 +14,7 @@
 #include "host/support/output-place.h"
 #include "host/support/temporary.h"
 
-namespace tessera {
+namespace tessera::support {
 
 namespace fs = std::filesystem;
 
@@ -73,4 +73,4 @@ TemporaryFolder::~TemporaryFolder() = default;
 
 const fs::path& TemporaryFolder::path() const { return folder_->path(); }
 
-}  // namespace tessera
+}  // namespace tessera::support

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-namespace tessera {
+namespace tessera::support {
 
 /// An output that appears whole or not at all. A file, through symbolic links the one that they lead to, is written
 /// beside and renamed; it keeps its mode. A device, a pipe, /dev/fd/N or "-" (stdout) is written to, from a file in the
@@ -104,4 +104,4 @@ int faultOf(const std::filesystem::path& folder, std::string_view said);
 /// program said or by trying.
 void checkWritten(const std::filesystem::path& folder, std::string_view said);
 
-}  // namespace tessera
+}  // namespace tessera::support

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace tessera {
+namespace tessera::support {
 namespace {
 
 namespace fs = std::filesystem;
@@ -56,4 +56,4 @@ fs::path slangcOf(const fs::path& slangSources) {
   return home().slangc;
 }
 
-}  // namespace tessera
+}  // namespace tessera::support

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-namespace tessera {
+namespace tessera::support {
 
 /// An installed program uses what was installed with it, wherever its prefix was moved, and nothing of the clone.
 /// Paths are those where a file would be: whether it is there is the caller's question.
@@ -22,4 +22,4 @@ const Home& home();
 /// The pinned slangc that belongs to these sources, be they a clone's or those of an installed library; else home()'s.
 std::filesystem::path slangcOf(const std::filesystem::path& slangSources);
 
-}  // namespace tessera
+}  // namespace tessera::support

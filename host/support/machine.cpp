@@ -2,7 +2,7 @@
 
 #include <fstream>
 
-namespace tessera {
+namespace tessera::support {
 
 std::string processorName() {
   std::ifstream file("/proc/cpuinfo");
@@ -12,4 +12,4 @@ std::string processorName() {
   return "CPU";
 }
 
-}  // namespace tessera
+}  // namespace tessera::support

@@ -3,9 +3,9 @@
 
 #include <string>
 
-namespace tessera {
+namespace tessera::support {
 
 /// The model of the first processor, as Linux names it; "CPU" where it names none.
 std::string processorName();
 
-}  // namespace tessera
+}  // namespace tessera::support

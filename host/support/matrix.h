@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <glm/vec3.hpp>
 
-namespace tessera {
+namespace tessera::support {
 
 using DoubleMatrix = std::array<double, 16>;  ///< row-major
 
@@ -17,4 +17,4 @@ inline DoubleMatrix translated(DoubleMatrix m, const glm::dvec3& by) {
   return m;
 }
 
-}  // namespace tessera
+}  // namespace tessera::support

@@ -7,7 +7,7 @@
 #include "host/support/files.h"
 #include "host/support/output-place.h"
 
-namespace tessera {
+namespace tessera::support {
 namespace {
 
 namespace fs = std::filesystem;
@@ -49,4 +49,4 @@ void checkApart(const std::vector<fs::path>& outputs, const std::vector<fs::path
   }
 }
 
-}  // namespace tessera
+}  // namespace tessera::support

@@ -14,7 +14,7 @@
 #include "host/support/output-place.h"
 #include "host/support/temporary.h"
 
-namespace tessera {
+namespace tessera::support {
 namespace {
 
 namespace fs = std::filesystem;
@@ -168,4 +168,4 @@ void writeWhole(const fs::path& target, std::string_view text) {
   file.commit(text.size());
 }
 
-}  // namespace tessera
+}  // namespace tessera::support

@@ -11,7 +11,7 @@
 #include "host/support/files.h"
 #include "host/support/output-place.h"
 
-namespace tessera {
+namespace tessera::support {
 namespace {
 
 namespace fs = std::filesystem;
@@ -83,4 +83,4 @@ void AppendedFile::append(std::string_view lines) {
     state_->appendToFile(std::move(text));
 }
 
-}  // namespace tessera
+}  // namespace tessera::support

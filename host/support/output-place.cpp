@@ -17,7 +17,7 @@
 
 #include "host/support/file-faults.h"
 
-namespace tessera {
+namespace tessera::support {
 namespace {
 
 namespace fs = std::filesystem;
@@ -163,4 +163,4 @@ void failWriting(const fs::path& name, const std::string& cause) {
 
 fs::path folderOf(const fs::path& file) { return file.has_parent_path() ? file.parent_path() : fs::path("."); }
 
-}  // namespace tessera
+}  // namespace tessera::support

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-namespace tessera {
+namespace tessera::support {
 
 /// What a name leads to through symbolic links. Made, it has passed every check that needs no writing.
 struct OutputPlace {
@@ -47,4 +47,4 @@ std::string causeOf(int error);
 /// That of a file, "." where its name has none.
 std::filesystem::path folderOf(const std::filesystem::path& file);
 
-}  // namespace tessera
+}  // namespace tessera::support

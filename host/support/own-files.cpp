@@ -13,7 +13,7 @@
 #include "host/support/temporary.h"
 #include "host/support/text.h"
 
-namespace tessera {
+namespace tessera::support {
 namespace {
 
 namespace fs = std::filesystem;
@@ -82,4 +82,4 @@ void replaceOwn(const fs::path& made, const fs::path& path) {
   fs::rename(made, path);
 }
 
-}  // namespace tessera
+}  // namespace tessera::support

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string_view>
 
-namespace tessera {
+namespace tessera::support {
 
 /// $TESSERA_CACHE, else $XDG_CACHE_HOME/tessera, else ~/.cache/tessera. Throws kUsage where none of them is set.
 std::filesystem::path defaultCacheFolder();
@@ -26,4 +26,4 @@ void writeOwn(const std::filesystem::path& path, std::string_view text);
 /// Renames a file over whatever is there, a folder that somebody has put there too. Throws std::system_error.
 void replaceOwn(const std::filesystem::path& made, const std::filesystem::path& path);
 
-}  // namespace tessera
+}  // namespace tessera::support

@@ -10,7 +10,7 @@
 
 #include "host/support/terminal.h"
 
-namespace tessera {
+namespace tessera::support {
 namespace {
 
 std::atomic<bool> silent{false};
@@ -74,4 +74,4 @@ void Progress::draw() {
   drawn_ = true;
 }
 
-}  // namespace tessera
+}  // namespace tessera::support

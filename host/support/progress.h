@@ -9,7 +9,7 @@
 #include <string>
 #include <thread>
 
-namespace tessera {
+namespace tessera::support {
 
 /// Silent for two seconds; then drawn in place on a terminal, and as a line now and then elsewhere. Thread-safe.
 class Progress {
@@ -44,4 +44,4 @@ class Progress {
   std::jthread watcher_;  ///< last, so that it ends before what it reads is gone
 };
 
-}  // namespace tessera
+}  // namespace tessera::support

@@ -7,7 +7,7 @@
 
 #include <array>
 
-namespace tessera {
+namespace tessera::support {
 namespace {
 
 EVP_MD_CTX* own(void* context) { return static_cast<EVP_MD_CTX*>(context); }
@@ -36,4 +36,4 @@ std::string sha256(std::string_view text) {
   return hash.hex();
 }
 
-}  // namespace tessera
+}  // namespace tessera::support

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace tessera {
+namespace tessera::support {
 
 /// Of bytes that come one after another. Throws kFailure where libcrypto has none.
 class Sha256 {
@@ -26,4 +26,4 @@ class Sha256 {
 /// The same of one text.
 std::string sha256(std::string_view text);
 
-}  // namespace tessera
+}  // namespace tessera::support

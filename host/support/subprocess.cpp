@@ -14,7 +14,7 @@
 
 extern char** environ;
 
-namespace tessera {
+namespace tessera::support {
 namespace {
 
 /// The environment of this process, with messages in English: their first error line is what we quote.
@@ -104,4 +104,4 @@ std::filesystem::path findProgram(std::string_view name) {
   return {};
 }
 
-}  // namespace tessera
+}  // namespace tessera::support

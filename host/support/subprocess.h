@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-namespace tessera {
+namespace tessera::support {
 
 struct ProcessResult {
   int status = 0;      ///< exit status; 128 + the signal's number if one ended it
@@ -30,4 +30,4 @@ ProcessResult runProcess(const std::vector<std::string>& arguments, const std::f
 /// if there is none.
 std::filesystem::path findProgram(std::string_view name);
 
-}  // namespace tessera
+}  // namespace tessera::support

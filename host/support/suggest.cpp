@@ -7,7 +7,7 @@
 #include <cctype>
 #include <cstddef>
 
-namespace tessera {
+namespace tessera::support {
 namespace {
 
 std::string plain(std::string_view word) {
@@ -63,4 +63,4 @@ std::string whatThereIs(std::string_view typed, const std::vector<std::string>& 
                        : fmt::format("did you mean {}? There {} {}", meant, verb, list);
 }
 
-}  // namespace tessera
+}  // namespace tessera::support

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-namespace tessera {
+namespace tessera::support {
 
 /// The one of `known` that `typed` is nearest to, "" where none is near: one slip in three letters (a letter missing,
 /// added, wrong, or two in the wrong order), or the beginning of a word. Case, `_` for `-` and leading hyphens do not
@@ -23,4 +23,4 @@ std::vector<std::string> namesOf(const List& list, Member name) {
   return names;
 }
 
-}  // namespace tessera
+}  // namespace tessera::support

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <string_view>
 
-namespace tessera {
+namespace tessera::support {
 namespace {
 
 bool looksNumeric(std::string_view cell) { return cell.find_first_not_of("0123456789.,-+%") == std::string_view::npos; }
@@ -57,4 +57,4 @@ std::string byteSize(std::uint64_t bytes) {
                           : fmt::format("{:.1f} GiB", static_cast<double>(bytes) / 1073741824.0);
 }
 
-}  // namespace tessera
+}  // namespace tessera::support

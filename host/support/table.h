@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace tessera {
+namespace tessera::support {
 
 /// Rows of cells, two blanks between the columns; the first row is a heading and gets a rule under it. Columns in which
 /// every cell but the heading looks like a number are set to the right.
@@ -17,4 +17,4 @@ std::string grouped(std::optional<std::uint64_t> number);  ///< a dash where the
 std::string milliseconds(double nanoseconds);              ///< "4.21", three significant figures or more
 std::string byteSize(std::uint64_t bytes);                 ///< "128 MiB"
 
-}  // namespace tessera
+}  // namespace tessera::support

@@ -13,7 +13,7 @@
 #include <system_error>
 #include <vector>
 
-namespace tessera {
+namespace tessera::support {
 namespace {
 
 namespace fs = std::filesystem;
@@ -100,4 +100,4 @@ void clearTemporaries(const fs::path& parent, std::string_view stem) {
   }
 }
 
-}  // namespace tessera
+}  // namespace tessera::support

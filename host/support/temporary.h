@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <string_view>
 
-namespace tessera {
+namespace tessera::support {
 
 /// A new file or folder `STEM.PID-RANDOM.tmp`, removed at the end with all that is in it. It is locked (flock) as long
 /// as it is in use, so that clearTemporaries() can tell what a killed run has left, on whichever machine that ran.
@@ -30,4 +30,4 @@ class Temporary {
 /// Removes what killed runs of this user left in `parent` under names that Temporary gives to `stem`.
 void clearTemporaries(const std::filesystem::path& parent, std::string_view stem);
 
-}  // namespace tessera
+}  // namespace tessera::support

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 
-namespace tessera {
+namespace tessera::support {
 namespace {
 
 /// Length and value of the character that begins there; length 0 where the bytes are not UTF-8 (RFC 3629).
@@ -49,4 +49,4 @@ std::string visible(std::string_view text) {
   return result;
 }
 
-}  // namespace tessera
+}  // namespace tessera::support

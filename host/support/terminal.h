@@ -10,7 +10,7 @@
 #include <system_error>
 #include <utility>
 
-namespace tessera {
+namespace tessera::support {
 
 /// The text with each control character but the line's end and the tab, each sign that turns the direction of writing,
 /// and each byte that is not UTF-8 written out: "\u001b", "\u202e", "\xff". Text of JSON stays JSON with the same
@@ -31,4 +31,4 @@ inline void flushStdout() {
   if (std::fflush(stdout) != 0) throw std::system_error(errno, std::generic_category());
 }
 
-}  // namespace tessera
+}  // namespace tessera::support

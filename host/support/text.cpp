@@ -2,7 +2,7 @@
 
 #include <cstdlib>
 
-namespace tessera {
+namespace tessera::support {
 
 std::string lowerCase(std::string_view text) {
   std::string lower(text);
@@ -16,4 +16,4 @@ std::string environment(const char* name) {
   return value != nullptr ? value : "";
 }
 
-}  // namespace tessera
+}  // namespace tessera::support

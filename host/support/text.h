@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace tessera {
+namespace tessera::support {
 
 /// ASCII letters made small.
 std::string lowerCase(std::string_view text);
@@ -12,4 +12,4 @@ std::string lowerCase(std::string_view text);
 /// The value of a variable of the environment; "" where it is not set.
 std::string environment(const char* name);
 
-}  // namespace tessera
+}  // namespace tessera::support

@@ -211,7 +211,7 @@ TEST_CASE("A stream that does not fit its scene is refused by name", "[attribute
 }
 
 TEST_CASE("Channels of several streams come back from a file", "[attributes]") {
-  const TemporaryFolder folder(temporaryRoot(), "tessera-test");
+  const support::TemporaryFolder folder(support::temporaryRoot(), "tessera-test");
   Scene scene = loadInput("generate:icosphere?level=2", 50, 40);
   addStreams(scene, 1);
   scene.makeStream("dotted.x", 1, true).values.assign(scene.vertexCount(), 2);
@@ -236,7 +236,7 @@ TEST_CASE("Channels of several streams come back from a file", "[attributes]") {
 }
 
 PLACE_TEST_CASE("A kernel binds a stream by its name", "[attributes]") {
-  const TemporaryFolder folder(temporaryRoot(), "tessera-test");
+  const support::TemporaryFolder folder(support::temporaryRoot(), "tessera-test");
   const auto file = folder.path() / "tint.slang";
   std::ofstream(file) << R"(import workgroup;
 import layout;

@@ -6,7 +6,7 @@
 #include "host/support/terminal.h"
 #include "run-tessera.h"
 
-using tessera::visible;
+using tessera::support::visible;
 using tessera::test::Desk;
 
 namespace {

@@ -20,7 +20,7 @@ class Files {
   std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
 
  private:
-  TemporaryFolder folder_{std::filesystem::temp_directory_path(), "datasets-test"};
+  support::TemporaryFolder folder_{std::filesystem::temp_directory_path(), "datasets-test"};
 };
 
 /// The message of the kUsage error that `action` throws; the test fails if it throws none, another one, or more than a

@@ -20,7 +20,11 @@ TEST_CASE("Two outputs of one file are refused under whatever names") {
   REQUIRE(mkfifo((folder / "pipe").c_str(), 0600) == 0);
   const auto twice = [&](const fs::path& one, const fs::path& other) {
     INFO(one << " " << other);
-    CHECK(contains(lineOf(ExitCode::kUsage, [&] { checkApart({one, folder / "else", other}, {}); }), other.string()));
+    CHECK(contains(lineOf(ExitCode::kUsage,
+                          [&] {
+                            support::checkApart({one, folder / "else", other}, {});
+                          }),
+                   other.string()));
   };
   twice(folder / "a", folder / "a");
   twice(folder / "a", folder / "deep/../a");
@@ -31,7 +35,8 @@ TEST_CASE("Two outputs of one file are refused under whatever names") {
   twice(folder / "pipe", folder / "pipe");
   twice("-", "-");
   twice("-", "/dev/stdout");
-  checkApart({folder / "a", folder / "new", "-", "/dev/null", "/dev/null"}, {folder / "pipe", folder / "missing"});
+  support::checkApart({folder / "a", folder / "new", "-", "/dev/null", "/dev/null"},
+                      {folder / "pipe", folder / "missing"});
 }
 
 TEST_CASE("An output that is an input is refused under whatever name") {
@@ -40,9 +45,9 @@ TEST_CASE("An output that is an input is refused under whatever name") {
   fs::create_hard_link(folder / "mesh", folder / "hard");
   fs::create_symlink("mesh", folder / "link");
   for (const char* const name : {"mesh", "hard", "link"})
-    CHECK(contains(lineOf(ExitCode::kUsage, [&] { checkApart({folder / name}, {folder / "mesh"}); }),
+    CHECK(contains(lineOf(ExitCode::kUsage, [&] { support::checkApart({folder / name}, {folder / "mesh"}); }),
                    "another name would keep it"));
-  CHECK(contains(lineOf(ExitCode::kUsage, [&] { checkApart({folder / "mesh"}, {folder / "link"}); }), "link"));
+  CHECK(contains(lineOf(ExitCode::kUsage, [&] { support::checkApart({folder / "mesh"}, {folder / "link"}); }), "link"));
 }
 
 }  // namespace tessera::test

@@ -18,7 +18,7 @@ class Folder {
   std::vector<std::string> names() const;  ///< sorted
 
  private:
-  TemporaryFolder folder_{std::filesystem::temp_directory_path(), "tessera-files-test"};
+  support::TemporaryFolder folder_{std::filesystem::temp_directory_path(), "tessera-files-test"};
 };
 
 /// All that comes out of a pipe until it is closed.

@@ -23,18 +23,18 @@ TEST_CASE("A file appears whole and only when it is committed") {
   const Folder folder;
   folder.write("a", "old");
   {
-    OutputFile file(folder / "a");
+    support::OutputFile file(folder / "a");
     CHECK(folder.names() == Names{"a"});  // nothing lies there while the work goes on
     std::ofstream(file.path()) << "new";
     CHECK(folder.read("a") == "old");
   }
   CHECK(folder.names() == Names{"a"});
-  OutputFile file(folder / "a");
+  support::OutputFile file(folder / "a");
   std::ofstream(file.path()) << "new";
   file.commit();
   CHECK(folder.read("a") == "new");
   CHECK(folder.names() == Names{"a"});
-  writeWhole(folder / "b", "");
+  support::writeWhole(folder / "b", "");
   CHECK(folder.names() == Names{"a", "b"});
 }
 
@@ -42,7 +42,7 @@ TEST_CASE("A file that did not arrive as it should leaves the old one") {
   const Folder folder;
   folder.write("a", "old");
   const auto check = [&](std::optional<std::uintmax_t> bytes, const std::string& text, const std::string& why) {
-    OutputFile file(folder / "a");
+    support::OutputFile file(folder / "a");
     std::ofstream(file.path()) << text;
     CHECK(contains(lineOf(ExitCode::kFailure, [&] { file.commit(bytes); }), why));
   };
@@ -50,7 +50,8 @@ TEST_CASE("A file that did not arrive as it should leaves the old one") {
   check(5, "new", "3 of 5 bytes arrived");
   {
     const FileLimit limit(1000);
-    const std::string line = lineOf(ExitCode::kFailure, [&] { writeWhole(folder / "a", std::string(5000, 'x')); });
+    const std::string line =
+        lineOf(ExitCode::kFailure, [&] { support::writeWhole(folder / "a", std::string(5000, 'x')); });
     CHECK(contains(line, "/a: could not be written: File too large"));
   }
   CHECK(folder.read("a") == "old");
@@ -66,15 +67,15 @@ TEST_CASE("A symbolic link stays and its target is written") {
   fs::create_symlink("far/new", folder / "dangling");
   fs::create_symlink("nowhere/new", folder / "lost");
   fs::create_symlink("loop", folder / "loop");
-  writeWhole(folder / "second", "new");
+  support::writeWhole(folder / "second", "new");
   CHECK(fs::is_symlink(folder / "link"));
   CHECK(fs::is_symlink(folder / "second"));
   CHECK(folder.read("far/target") == "new");
-  writeWhole(folder / "dangling", "made");
+  support::writeWhole(folder / "dangling", "made");
   CHECK(fs::is_symlink(folder / "dangling"));
   CHECK(folder.read("far/new") == "made");
-  CHECK(contains(lineOf(ExitCode::kUsage, [&] { OutputFile{folder / "lost"}; }), "nowhere does not exist"));
-  CHECK(contains(lineOf(ExitCode::kUsage, [&] { OutputFile{folder / "loop"}; }), "loop"));
+  CHECK(contains(lineOf(ExitCode::kUsage, [&] { support::OutputFile{folder / "lost"}; }), "nowhere does not exist"));
+  CHECK(contains(lineOf(ExitCode::kUsage, [&] { support::OutputFile{folder / "loop"}; }), "loop"));
 }
 
 TEST_CASE("A file keeps its mode and a hard link keeps the old text") {
@@ -82,11 +83,11 @@ TEST_CASE("A file keeps its mode and a hard link keeps the old text") {
   folder.write("a", "old");
   fs::create_hard_link(folder / "a", folder / "b");
   fs::permissions(folder / "a", fs::perms(0640));
-  writeWhole(folder / "a", "new");
+  support::writeWhole(folder / "a", "new");
   CHECK(fs::status(folder / "a").permissions() == fs::perms(0640));
   CHECK(folder.read("b") == "old");
   const mode_t before = umask(027);
-  writeWhole(folder / "c", "new");
+  support::writeWhole(folder / "c", "new");
   umask(before);
   CHECK(fs::status(folder / "c").permissions() == fs::perms(0640));
 }
@@ -95,19 +96,19 @@ TEST_CASE("A device is written to and stays a device") {
   const Folder folder;
   fs::path null = "/dev/null", full = "/dev/full";
   if (mknod((folder / "null").c_str(), S_IFCHR | 0666, makedev(1, 3)) == 0) null = folder / "null";  // as root
-  writeWhole(null, "text");
-  OutputFile file(null);
+  support::writeWhole(null, "text");
+  support::OutputFile file(null);
   std::ofstream(file.path()) << "picture";
   file.commit();
-  AppendedFile(null).append("row");
+  support::AppendedFile(null).append("row");
   CHECK(fs::is_character_file(null));
   const auto check = [&](const std::function<void()>& write) {
     CHECK(contains(lineOf(ExitCode::kFailure, write), "/dev/full: could not be written: No space left on device"));
   };
-  check([&] { writeWhole(full, "text"); });
-  check([&] { AppendedFile(full).append("row"); });
+  check([&] { support::writeWhole(full, "text"); });
+  check([&] { support::AppendedFile(full).append("row"); });
   check([&] {
-    OutputFile picture(full);
+    support::OutputFile picture(full);
     std::ofstream(picture.path()) << "picture";
     picture.commit();
   });
@@ -119,14 +120,14 @@ TEST_CASE("A pipe gets the bytes and stays a pipe") {
   REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
   const std::string large(300'000, 'x');  // more than a pipe holds
   auto text = readPipe(pipe);
-  writeWhole(pipe, large);
+  support::writeWhole(pipe, large);
   CHECK(text.get() == large);
   text = readPipe(pipe);
-  AppendedFile(pipe).append("row");
+  support::AppendedFile(pipe).append("row");
   CHECK(text.get() == "row\n");
   text = readPipe(pipe);
   {
-    OutputFile file(pipe);
+    support::OutputFile file(pipe);
     std::ofstream(file.path()) << large;
     file.commit();
   }
@@ -140,7 +141,7 @@ TEST_CASE("A pipe whose reader goes away is an error with its name") {
   const Folder folder;
   REQUIRE(mkfifo((folder / "pipe").c_str(), 0600) == 0);
   const int reader = open((folder / "pipe").c_str(), O_RDONLY | O_NONBLOCK);
-  OutputFile file(folder / "pipe");
+  support::OutputFile file(folder / "pipe");
   std::ofstream(file.path()) << "picture";
   close(reader);
   CHECK(contains(lineOf(ExitCode::kFailure, [&] { file.commit(); }), "pipe: could not be written: Broken pipe"));
@@ -152,18 +153,19 @@ TEST_CASE("Descriptors are written to where they stand") {
   const int file = open((folder / "a").c_str(), O_WRONLY | O_APPEND);
   for (const char* const form : {"/dev/fd/{}", "/proc/self/fd/{}"}) {
     const std::string name = fmt::format(fmt::runtime(form), file);
-    writeWhole(name, "text ");
-    AppendedFile(name).append("row");
-    OutputFile picture(name);
+    support::writeWhole(name, "text ");
+    support::AppendedFile(name).append("row");
+    support::OutputFile picture(name);
     std::ofstream(picture.path()) << "picture ";
     picture.commit();
   }
   close(file);
   CHECK(folder.read("a") == "first text row\npicture text row\npicture ");
   const int reading = open((folder / "a").c_str(), O_RDONLY);
-  CHECK(contains(lineOf(ExitCode::kUsage, [&] { OutputFile{fmt::format("/dev/fd/{}", reading)}; }), "reading only"));
+  CHECK(contains(lineOf(ExitCode::kUsage, [&] { support::OutputFile{fmt::format("/dev/fd/{}", reading)}; }),
+                 "reading only"));
   close(reading);
-  CHECK(contains(lineOf(ExitCode::kUsage, [&] { OutputFile{"/dev/fd/987"}; }), "not open"));
+  CHECK(contains(lineOf(ExitCode::kUsage, [&] { support::OutputFile{"/dev/fd/987"}; }), "not open"));
 }
 
 TEST_CASE("Where nothing can be written is said before the work") {
@@ -177,9 +179,9 @@ TEST_CASE("Where nothing can be written is said before the work") {
   name.copy(address.sun_path, name.size());
   REQUIRE(bind(socket, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0);
   const auto check = [&](const fs::path& path, const std::string& why) {
-    CHECK(contains(lineOf(ExitCode::kUsage, [&] { OutputFile{path}; }), why));
-    CHECK(contains(lineOf(ExitCode::kUsage, [&] { AppendedFile{path}; }), why));
-    CHECK(contains(lineOf(ExitCode::kUsage, [&] { checkWhole(path); }), why));
+    CHECK(contains(lineOf(ExitCode::kUsage, [&] { support::OutputFile{path}; }), why));
+    CHECK(contains(lineOf(ExitCode::kUsage, [&] { support::AppendedFile{path}; }), why));
+    CHECK(contains(lineOf(ExitCode::kUsage, [&] { support::checkWhole(path); }), why));
   };
   check("", "has no name");
   check(folder / "folder", "is a folder");
@@ -194,11 +196,11 @@ TEST_CASE("Where nothing can be written is said before the work") {
   if (geteuid() == 0) return;  // root may write all that follows
   fs::permissions(folder / "file", fs::perms(0444));
   check(folder / "file", "cannot be written: Permission denied");
-  writeWhole(folder / "folder/a", "text");
+  support::writeWhole(folder / "folder/a", "text");
   fs::permissions(folder / "folder", fs::perms(0555));
   check(folder / "folder/b", "cannot be written: Permission denied");
-  CHECK(contains(lineOf(ExitCode::kUsage, [&] { OutputFile{folder / "folder/a"}; }), "beside its name first"));
-  AppendedFile(folder / "folder/a").append("row");  // which needs no new file
+  CHECK(contains(lineOf(ExitCode::kUsage, [&] { support::OutputFile{folder / "folder/a"}; }), "beside its name first"));
+  support::AppendedFile(folder / "folder/a").append("row");  // which needs no new file
   fs::permissions(folder / "folder", fs::perms(0755));
 }
 
@@ -207,8 +209,8 @@ TEST_CASE("Names near the longest work") {
   std::string accents = "x";
   while (accents.size() < 254) accents += "\u00e9";
   for (const std::string& name : {std::string(255, 'n'), accents}) {
-    writeWhole(folder / name, "text");
-    AppendedFile(folder / name).append("row");
+    support::writeWhole(folder / name, "text");
+    support::AppendedFile(folder / name).append("row");
     CHECK(folder.read(name) == "text\nrow\n");
   }
 }
@@ -216,7 +218,7 @@ TEST_CASE("Names near the longest work") {
 TEST_CASE("The temporary folder is named where it is missing") {
   const std::string before = std::getenv("TMPDIR") ? std::getenv("TMPDIR") : "";
   setenv("TMPDIR", "/nowhere/tmp", 1);
-  const std::string line = lineOf(ExitCode::kUsage, [] { OutputFile{"/dev/null"}; });
+  const std::string line = lineOf(ExitCode::kUsage, [] { support::OutputFile{"/dev/null"}; });
   before.empty() ? unsetenv("TMPDIR") : setenv("TMPDIR", before.c_str(), 1);
   CHECK(contains(line, "/nowhere/tmp: cannot be written: No such file or directory"));
 }

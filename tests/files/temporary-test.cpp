@@ -23,7 +23,7 @@ TEST_CASE("A temporary folder is new and its owner's alone and goes away") {
   const Folder folder;
   fs::path path;
   {
-    const TemporaryFolder one(folder / "deep", "stem"), two(folder / "deep", "stem");
+    const support::TemporaryFolder one(folder / "deep", "stem"), two(folder / "deep", "stem");
     path = one.path();
     CHECK(path != two.path());
     CHECK(fs::status(path).permissions() == fs::perms(0700));
@@ -31,7 +31,7 @@ TEST_CASE("A temporary folder is new and its owner's alone and goes away") {
   }
   CHECK_FALSE(fs::exists(path));
   folder.write("file", "");
-  CHECK(contains(lineOf(ExitCode::kUsage, [&] { TemporaryFolder(folder / "file", "stem"); }), "/file: "));
+  CHECK(contains(lineOf(ExitCode::kUsage, [&] { support::TemporaryFolder(folder / "file", "stem"); }), "/file: "));
 }
 
 TEST_CASE("What a killed run left is cleared and what is in use stays") {
@@ -39,8 +39,8 @@ TEST_CASE("What a killed run left is cleared and what is in use stays") {
   const pid_t child = fork();
   REQUIRE(child >= 0);
   if (child == 0) {
-    new TemporaryFolder(folder / "", "work");  // never deleted, as in a run that is killed
-    OutputFile* const file = new OutputFile(folder / "a.png");
+    new support::TemporaryFolder(folder / "", "work");  // never deleted, as in a run that is killed
+    support::OutputFile* const file = new support::OutputFile(folder / "a.png");
     file->path();
     _exit(0);
   }
@@ -49,10 +49,10 @@ TEST_CASE("What a killed run left is cleared and what is in use stays") {
   fs::create_directories(folder / "a.png.part");
   folder.write("a.png.backup.tmp", "");
   folder.write("keep.png.12-ab.tmp", "");  // of another name
-  const TemporaryFolder work(folder / "", "work");
-  OutputFile mine(folder / "a.png");
+  const support::TemporaryFolder work(folder / "", "work");
+  support::OutputFile mine(folder / "a.png");
   mine.path();
-  writeWhole(folder / "a.png", "text");  // beside the one that is in use
+  support::writeWhole(folder / "a.png", "text");  // beside the one that is in use
   CHECK(folder.names().size() == 6);
   CHECK(fs::exists(work.path()));
   CHECK(fs::exists(mine.path()));
@@ -71,7 +71,7 @@ TEST_CASE("Runs that begin at once clear nothing of one another's") {
     for (int run = 0; run < kRuns; ++run)
       runs.emplace_back([&] {
         for (int i = 0; i < kFolders; ++i) try {
-            const TemporaryFolder work(folder / "", "work");  // clears what it finds without an owner
+            const support::TemporaryFolder work(folder / "", "work");  // clears what it finds without an owner
             std::ofstream(work.path() / "file") << "text";
             whole += fs::exists(work.path() / "file");
           } catch (const Error& error) {
@@ -89,7 +89,7 @@ TEST_CASE("A link planted under a temporary name is not followed") {
   const Folder folder;
   folder.write("victim", "precious");
   fs::create_symlink("victim", folder / "a.1-aaaaaaaa.tmp");
-  clearTemporaries(folder / "", "a");
+  support::clearTemporaries(folder / "", "a");
   CHECK(fs::is_symlink(folder / "a.1-aaaaaaaa.tmp"));
   CHECK(folder.read("victim") == "precious");
 }

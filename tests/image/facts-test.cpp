@@ -36,8 +36,8 @@ std::map<std::string, std::string> factsOf(const fs::path& path) {
   return facts;
 }
 
-struct Desk : TemporaryFolder {
-  Desk() : TemporaryFolder(temporaryRoot(), "tessera-facts-test") {}
+struct Desk : support::TemporaryFolder {
+  Desk() : support::TemporaryFolder(support::temporaryRoot(), "tessera-facts-test") {}
   fs::path operator/(const std::string& name) const { return path() / name; }
   void tessera(const std::string& arguments) const {
     const auto outcome = test::run(path(), "'" TESSERA_PROGRAM "' " + arguments);

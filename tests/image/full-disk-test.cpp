@@ -51,7 +51,7 @@ class NoRoom {
 }  // namespace
 
 TEST_CASE("an image for which there is no room is an error and the old file stays") {
-  const TemporaryFolder folder(temporaryRoot(), "tessera-full-disk-test");
+  const support::TemporaryFolder folder(support::temporaryRoot(), "tessera-full-disk-test");
   const Framebuffer frame = noise(100);
   for (const char* name : {"a.png", "a.exr"}) {
     const fs::path path = folder.path() / name;
@@ -84,7 +84,7 @@ TEST_CASE("an image for which there is no room is an error and the old file stay
 }
 
 TEST_CASE("on a full file system render and compare leave the old images") {
-  const TemporaryFolder folder(temporaryRoot(), "tessera-full-disk-test");
+  const support::TemporaryFolder folder(support::temporaryRoot(), "tessera-full-disk-test");
   const std::string disk = folder.path() / "disk";
   fs::create_directory(disk);
   if (geteuid() != 0 || mount("tessera", disk.c_str(), "tmpfs", 0, "size=16k") != 0) {

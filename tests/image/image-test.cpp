@@ -77,8 +77,8 @@ std::string lineOf(ExitCode code, Act&& act) {
   return "(nothing was thrown)";
 }
 
-struct Folder : TemporaryFolder {
-  Folder() : TemporaryFolder(fs::temp_directory_path(), "tessera-image-test") {}
+struct Folder : support::TemporaryFolder {
+  Folder() : support::TemporaryFolder(fs::temp_directory_path(), "tessera-image-test") {}
   fs::path operator/(const char* name) const { return path() / name; }
 };
 

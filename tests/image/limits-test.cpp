@@ -55,7 +55,7 @@ struct Header {
 };
 
 std::string refusalOf(const std::string& text, std::uint64_t limit = 0) {
-  const TemporaryFolder folder(temporaryRoot(), "tessera-image-limits-test");
+  const support::TemporaryFolder folder(support::temporaryRoot(), "tessera-image-limits-test");
   const fs::path path = folder.path() / "a.exr";
   std::ofstream(path, std::ios::binary) << text;
   try {
@@ -84,7 +84,7 @@ TEST_CASE("a small exr that unpacks to a lot is refused by a limit that an optio
 }
 
 TEST_CASE("a small exr of many channels that unpacks to little is read") {
-  const TemporaryFolder folder(temporaryRoot(), "tessera-image-limits-test");
+  const support::TemporaryFolder folder(support::temporaryRoot(), "tessera-image-limits-test");
   Framebuffer frame{.width = 8, .height = 8, .depth = {}, .ids = {}, .hits = {}, .colour = {}};
   frame.hits.assign(64, 3);
   const fs::path path = folder.path() / "a.exr";

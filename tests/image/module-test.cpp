@@ -22,7 +22,7 @@ TEST_CASE("the command is linked with no image library") {
 }
 
 TEST_CASE("a command without the image module says what is missing") {
-  const tessera::TemporaryFolder folder(tessera::temporaryRoot(), "tessera-image-module-test");
+  const tessera::support::TemporaryFolder folder(tessera::support::temporaryRoot(), "tessera-image-module-test");
   // Where the loader looks first there is a file of this name that is no library.
   const fs::path stand = folder.path() / "libtessera-image-io.so";
   std::fclose(std::fopen(stand.c_str(), "w"));

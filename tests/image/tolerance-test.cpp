@@ -88,7 +88,7 @@ TEST_CASE("rows that come one after the other make the whole") {
 }
 
 TEST_CASE("compare takes tolerances and a share of the pixels and says what is beyond them") {
-  const TemporaryFolder folder(temporaryRoot(), "tessera-tolerance-test");
+  const support::TemporaryFolder folder(support::temporaryRoot(), "tessera-tolerance-test");
   Framebuffer a = grey(20), b = a;
   for (std::size_t k = 0; k < 40; ++k) b.colour[k].x += 0.001f;
   b.colour[399].y = 0.75f;

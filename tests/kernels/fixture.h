@@ -24,7 +24,7 @@ class Environment {
 };
 
 struct Workshop {
-  TemporaryFolder folder;
+  support::TemporaryFolder folder;
   std::filesystem::path slang, cache;
 
   /// Sources: stages/scale.slang (entry scaleAll: results[i] = (values[i] * frame.factor + step()) / 3), which

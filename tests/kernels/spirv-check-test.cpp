@@ -26,7 +26,7 @@ std::vector<std::uint32_t> compile(const std::string& expression,
   std::vector<std::string> arguments{slangc, source.string(), "-target", "spirv", "-O1",          "-entry",
                                      "go",   "-stage",        "compute", "-o",    module.string()};
   arguments.insert(arguments.end(), more.begin(), more.end());
-  const ProcessResult result = runProcess(arguments);
+  const support::ProcessResult result = support::runProcess(arguments);
   INFO(result.output);
   REQUIRE(result.ok());
   return readSpirv(module);
@@ -90,9 +90,9 @@ TEST_CASE("The GLSL route is exact only by that repair") {
   writeText(text,
             "#version 450\nlayout(std430, binding = 0) buffer B { float a[]; };\nvoid main() { a[0] = a[1] * a[2] + "
             "a[3]; }\n");
-  REQUIRE(
-      runProcess({findProgram("glslangValidator").string(), "-V", "-S", "comp", "-o", module.string(), text.string()})
-          .ok());
+  REQUIRE(support::runProcess({support::findProgram("glslangValidator").string(), "-V", "-S", "comp", "-o",
+                               module.string(), text.string()})
+              .ok());
   CHECK(checkSpirv(module).size() == 2);
   CHECK(checkSpirv(shop.open().get(scaleRequest(Route::kGlsl)).binary).empty());
 }

@@ -18,7 +18,7 @@ namespace tessera::test {
 std::filesystem::path example(const std::string& name);
 
 struct Bench {
-  TemporaryFolder folder;
+  support::TemporaryFolder folder;
   Bench();
   /// Writes a file of that name and gives its path.
   std::filesystem::path write(const std::string& name, const std::string& text) const;

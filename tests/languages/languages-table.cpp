@@ -48,12 +48,12 @@ Scene sceneOf(const Kind& kind) {
 
 /// What a program says about a file, its first line; "" where it ends well.
 std::string judgedBy(std::vector<std::string> command, const std::string& bytes, const char* name) {
-  const TemporaryFolder folder(fs::temp_directory_path(), "tessera-judge");
+  const support::TemporaryFolder folder(fs::temp_directory_path(), "tessera-judge");
   const fs::path file = folder.path() / name;
   std::ofstream(file, std::ios::binary) << bytes;
-  command.front() = findProgram(command.front()).string();
+  command.front() = support::findProgram(command.front()).string();
   command.push_back(file.string());
-  const ProcessResult result = runProcess(command);
+  const support::ProcessResult result = support::runProcess(command);
   return result.ok() ? "" : result.output.substr(0, result.output.find('\n'));
 }
 

@@ -134,7 +134,7 @@ TEST_CASE("A host that has the manifest alone runs the WGSL with the bits of the
     for (const Json& stage : manifest.at("stages"))  // names are Slang's
       for (const Json& binding : stage.at("bindings")) CHECK(binding.at("inFile") == binding.at("name"));
 
-    const ProcessResult ran = runProcess({TESSERA_RUN_WGSL, (desk.path() / "out").string()});
+    const support::ProcessResult ran = support::runProcess({TESSERA_RUN_WGSL, (desk.path() / "out").string()});
     INFO(ran.output);
     REQUIRE(ran.ok());
     const Framebuffer oracle = reference::render(loadInput(input, 100, 75), imageAxesOf(variant)).image;

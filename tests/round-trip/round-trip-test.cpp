@@ -54,7 +54,7 @@ double kept(double value, Kept how) {
 }  // namespace
 
 TEST_CASE("What a second library writes comes back as the same triangles") {
-  const TemporaryFolder folder(std::filesystem::temp_directory_path(), "round-trip-test");
+  const support::TemporaryFolder folder(std::filesystem::temp_directory_path(), "round-trip-test");
   const auto all = meshes();
   for (const auto& [name, mesh] : all) {
     std::ofstream file(folder.path() / (name + ".mesh"), std::ios::binary);
@@ -65,7 +65,7 @@ TEST_CASE("What a second library writes comes back as the same triangles") {
     file.write(reinterpret_cast<const char*>(mesh.triangles.data()),
                static_cast<std::streamsize>(mesh.triangles.size() * sizeof(Triangle)));
   }
-  const ProcessResult result = runProcess({PYTHON, WRITER, folder.path().string()});
+  const support::ProcessResult result = support::runProcess({PYTHON, WRITER, folder.path().string()});
   if (!result.ok()) FAIL(result.output);
 
   // STL has no vertices of its own, and trimesh's STL and PLY are of float32; its text of PLY has eight digits, of

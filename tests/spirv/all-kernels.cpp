@@ -85,12 +85,13 @@ std::vector<KernelRequest> coveringKernels(Route route, std::size_t strength) {
 }
 
 std::string spirvVal(const std::vector<std::uint32_t>& words) {
-  static const std::filesystem::path program = findProgram("spirv-val");
+  static const std::filesystem::path program = support::findProgram("spirv-val");
   if (program.empty()) fail("spirv-val is not installed: apt-get install spirv-tools");
-  const TemporaryFolder folder(std::filesystem::temp_directory_path(), "tessera-spirv-val");
+  const support::TemporaryFolder folder(std::filesystem::temp_directory_path(), "tessera-spirv-val");
   const std::filesystem::path file = folder.path() / "module.spv";
   writeSpirv(file, words);
-  const ProcessResult result = runProcess({program.string(), "--target-env", "vulkan1.2", file.string()});
+  const support::ProcessResult result =
+      support::runProcess({program.string(), "--target-env", "vulkan1.2", file.string()});
   return result.ok() ? "" : "spirv-val: " + result.output;
 }
 

@@ -20,7 +20,7 @@ using namespace tessera::harness;
 using tessera::test::smallJournal;
 
 TEST_CASE("A journal that another sweep has begun or added to stays as it is") {
-  const TemporaryFolder desk(std::filesystem::temp_directory_path(), "tessera-journal");
+  const support::TemporaryFolder desk(std::filesystem::temp_directory_path(), "tessera-journal");
   const auto& folder = desk.path();
   const Json head{{"kind", "head"},
                   {"schema_version", kRowSchemaVersion},
@@ -56,7 +56,7 @@ void put(const std::filesystem::path& path, const std::string& text) {
 }  // namespace
 
 TEST_CASE("What is wrong in a journal is said with its line and key") {
-  const TemporaryFolder desk(std::filesystem::temp_directory_path(), "tessera-journal");
+  const support::TemporaryFolder desk(std::filesystem::temp_directory_path(), "tessera-journal");
   const std::string whole = smallJournal();
   put(journalOf(desk.path()), whole);
   REQUIRE_NOTHROW(rowsText(readJournal(desk.path())));
@@ -107,7 +107,7 @@ TEST_CASE("What is wrong in a journal is said with its line and key") {
 }
 
 TEST_CASE("Rows that the journal beside them has lost stay as they are") {
-  const TemporaryFolder desk(std::filesystem::temp_directory_path(), "tessera-journal");
+  const support::TemporaryFolder desk(std::filesystem::temp_directory_path(), "tessera-journal");
   const std::string whole = smallJournal(), samplesGone = whole.substr(0, whole.rfind('\n', whole.size() - 2) + 1);
   put(journalOf(desk.path()), whole);
   deriveRows(desk.path());
@@ -121,7 +121,7 @@ TEST_CASE("Rows that the journal beside them has lost stay as they are") {
 }
 
 TEST_CASE("Damaged journals are read or refused and never more") {
-  const TemporaryFolder desk(std::filesystem::temp_directory_path(), "tessera-journal");
+  const support::TemporaryFolder desk(std::filesystem::temp_directory_path(), "tessera-journal");
   const std::string whole = smallJournal();
   constexpr std::uint64_t kSeed = 14;
   INFO("seed " << kSeed);

@@ -159,7 +159,7 @@ class CpuDevice final : public Device {
     const DeviceKind kind = cpuKind();
     info_.api = kind.name;
     info_.routes = kind.routes;
-    info_.name = processorName();
+    info_.name = support::processorName();
     info_.driver = cpuDriverText();
     info_.threads = crew_->threads();
     info_.maxGroupBytes = kThreadGroupBytes;

@@ -11,8 +11,9 @@ tessera::DeviceKind tessera::cpuKind() {
           .takesThreads = true,
           .find =
               [] {
-                return FoundDevices{.devices = {{.select = "", .name = processorName(), .driver = "", .whyNot = ""}},
-                                    .notes = {}};
+                return FoundDevices{
+                    .devices = {{.select = "", .name = tessera::support::processorName(), .driver = "", .whyNot = ""}},
+                    .notes = {}};
               },
           .open = [](const std::string&,
                      const DeviceOptions& options) { return makeCpuDevice({.threads = options.threads}); }};

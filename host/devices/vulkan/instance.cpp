@@ -169,7 +169,8 @@ bool Adapter::isSoftware() const {
 Instance::Instance(bool validation, std::function<void(const std::string&)> onMessage)
     : context_(makeContext()),
       onMessage_(std::make_unique<std::function<void(const std::string&)>>(
-          onMessage ? std::move(onMessage) : [](const std::string& message) { say(stderr, "{}\n", message); })),
+          onMessage ? std::move(onMessage)
+                    : [](const std::string& message) { support::say(stderr, "{}\n", message); })),
       instance_(makeInstance(context_, validation, onMessage_.get(), complaints_)) {
   if (validation) messenger_ = {instance_, messengerInfo(onMessage_.get())};
 }

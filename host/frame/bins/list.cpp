@@ -36,8 +36,8 @@ const std::vector<Binning>& binnings() {
 std::unique_ptr<Bins> makeBins(std::string_view name) {
   const auto found = std::ranges::find(binnings(), name, &Binning::name);
   if (found != binnings().end()) return found->make();
-  fail(
-      fmt::format("binning={}: it has no host half; {}", name, whatThereIs(name, namesOf(binnings(), &Binning::name))));
+  fail(fmt::format("binning={}: it has no host half; {}", name,
+                   support::whatThereIs(name, support::namesOf(binnings(), &Binning::name))));
 }
 
 }  // namespace tessera
