@@ -26,7 +26,7 @@ namespace {
 constexpr std::size_t kOracleBytes = std::size_t{512} << 20;  // of images kept; two are kept whatever they take
 
 void compile(const Scene& scene, const Variant& asked, const DeviceInfo& device, KernelCache& kernels) {
-  for (const Variant& variant : {asked, counting(asked)})
+  for (const Variant& variant : {asked, axes::counting(asked)})
     kernels.getAll(kernelRequests(makePlan(scene, variant, device), kernels.files()));
 }
 
@@ -71,7 +71,7 @@ bool hasMismatch(const std::optional<Difference>& difference) { return differenc
 void writePicture(Run& run, std::size_t number, const Framebuffer& image, const CheckTools& tools) {
   const bool own = hasMismatch(run.difference);
   if (!own && !hasMismatch(run.truthDifference)) return;
-  Oracle& oracle = tools.oracles.of(*run.scene, own ? run.variant : joined(run.variant, run.truth));
+  Oracle& oracle = tools.oracles.of(*run.scene, own ? run.variant : axes::joined(run.variant, run.truth));
   const Framebuffer expected = oracle.expected(image);
   run.picture = fmt::format("pictures/{}.png", number);
   try {
@@ -163,7 +163,7 @@ double checkCell(Run& run, std::size_t number, const CheckTools& tools) {
   run.difference = oracle.against(image);
   run.wrongWinners = wrongWinners(run.variant, *run.difference, oracle.expected(image), image);
   if (!run.truth.values().empty())
-    run.truthDifference = errorOf(scene, joined(run.variant, run.truth), image, tools.oracles);
+    run.truthDifference = errorOf(scene, axes::joined(run.variant, run.truth), image, tools.oracles);
   writePicture(run, number, image, tools);
   if (!run.difference->equal() && !isApproximate(run.variant)) judge(run, tools);
   return seconds;

@@ -72,8 +72,8 @@ Survey survey(const Sweep& sweep, const std::vector<SweepPoint>& cells, KernelCa
     try {
       const Plan plan = makePlan(*scene, cell.asked, opened.device->info());
       result.images = {imageText(plan.resolved)};
-      if (!sweep.truth.values().empty()) result.images.insert(imageText(joined(plan.resolved, sweep.truth)));
-      for (const Plan& one : {plan, makePlan(*scene, counting(cell.asked), opened.device->info())})
+      if (!sweep.truth.values().empty()) result.images.insert(imageText(axes::joined(plan.resolved, sweep.truth)));
+      for (const Plan& one : {plan, makePlan(*scene, axes::counting(cell.asked), opened.device->info())})
         for (const KernelRequest& request : kernelRequests(one, cell.kernels))
           needed.try_emplace({request.stage, request.file, request.route, request.modules}, request);
     } catch (const Error& error) {

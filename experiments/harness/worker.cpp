@@ -74,7 +74,7 @@ class Worker {
       std::string refused;
       try {
         for (const bool work : {false, true}) {
-          Plan plan = makePlan(scene, work ? counting(cell.asked) : cell.asked, run.device);
+          Plan plan = makePlan(scene, work ? axes::counting(cell.asked) : cell.asked, run.device);
           if (!work) run.variant = plan.resolved;
           if (!work) run.plan = plan.entries;
           kernelRequests(plan, cell.kernels);
@@ -141,7 +141,7 @@ class Worker {
   }
 
   double limit(const Device& device, bool first) const {
-    const bool compiles = routeNamed(device.info().routes.front()).spirv;  // its driver does, in the first frame
+    const bool compiles = axes::routeNamed(device.info().routes.front()).spirv;  // its driver does, in the first frame
     return first && compiles ? kFirstFrames * job_.timeLimitS : job_.timeLimitS;
   }
 

@@ -49,7 +49,7 @@ const Stages kSetupToRaster{"setup", "bin-count", "bin-insert", "raster-tiles", 
 
 std::vector<Axis> vertexAxes() {
   return {
-      routeAxis(),
+      axes::routeAxis(),
       {"plan",
        "whether the planner leaves out what a scene does not need",
        "",

@@ -7,7 +7,7 @@
 
 #include "host/support/suggest.h"
 
-namespace tessera {
+namespace tessera::axes {
 namespace {
 
 /// Whether the value is one of the axis `route`.
@@ -81,4 +81,4 @@ std::string devicesFor(const AxisValue& value) {
   return std::ranges::find_if(routes(), [&](const RouteInfo& r) { return serves(r, value); })->devices;
 }
 
-}  // namespace tessera
+}  // namespace tessera::axes

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace tessera {
+namespace tessera::axes {
 
 /// The compiler that reads what slangc wrote.
 enum class SecondCompiler { kNone, kCxx, kGlslang };
@@ -51,4 +51,4 @@ bool fulfils(const std::vector<std::string>& taken, const AxisValue& value);
 /// For a value that needs something of a route: the devices that it is for, as messages say it.
 std::string devicesFor(const AxisValue& value);
 
-}  // namespace tessera
+}  // namespace tessera::axes

@@ -3,7 +3,7 @@
 #include <iterator>
 #include <sstream>
 
-namespace tessera {
+namespace tessera::axes {
 
 std::vector<std::string> settingsIn(std::string_view text) {
   std::istringstream words{std::string(text)};
@@ -20,4 +20,4 @@ Variant counting(Variant variant) {
   return variant;
 }
 
-}  // namespace tessera
+}  // namespace tessera::axes

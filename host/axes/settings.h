@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace tessera {
+namespace tessera::axes {
 
 /// The settings in "axis=value axis=value": what stands between blanks, of which no value holds one.
 std::vector<std::string> settingsIn(std::string_view text);
@@ -18,4 +18,4 @@ Variant joined(Variant variant, const Variant& more);
 /// The variant that counts work, too: counters=work.
 Variant counting(Variant variant);
 
-}  // namespace tessera
+}  // namespace tessera::axes

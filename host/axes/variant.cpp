@@ -80,7 +80,7 @@ Variant::Variant(std::initializer_list<std::pair<std::string_view, std::string_v
 }
 
 Variant::Variant(std::string_view settings) {
-  for (const std::string& setting : settingsIn(settings)) {
+  for (const std::string& setting : axes::settingsIn(settings)) {
     const auto equals = setting.find('=');
     const std::string name = setting.substr(0, equals);
     if (equals == std::string::npos) failWithoutValue(axis(name));

@@ -157,7 +157,7 @@ std::vector<std::string> typedSettings(const Options& options) {
   for (const std::string& typed : options.settings) {
     bool first = true;
     for (const std::string& part : partsOf(typed, "--set", "AXIS=VALUE,AXIS=VALUE")) {
-      for (const std::string& setting : settingsIn(part)) {
+      for (const std::string& setting : axes::settingsIn(part)) {
         if (!first && setting.find('=') == setting.npos)
           failUsage(
               fmt::format("--set {}: '{}' has no axis; AXIS=VALUE,AXIS=VALUE would be right, with one value an axis",

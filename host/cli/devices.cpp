@@ -54,7 +54,7 @@ void addDeviceRow(Rows& rows, Json& json, const std::string& name, KernelCache* 
   Json probes;
   std::vector<std::string> cells;
   for (const std::string& route : info.routes) {
-    const std::string verdict = probeCell(*device, kernels, routeNamed(route).route, notes, name);
+    const std::string verdict = probeCell(*device, kernels, axes::routeNamed(route).route, notes, name);
     probes[route] = verdict;
     cells.push_back(info.routes.size() == 1 ? verdict : route + " " + verdict);
   }

@@ -75,7 +75,7 @@ Framebuffer renderFrames(const RenderOptions& options, Device& device, KernelCac
   const Variant asked = run.variant;
   const bool countWork = !options.json.empty();
   std::vector<Plan> plans{makePlan(scene, asked, run.device)};
-  if (countWork) plans.push_back(makePlan(scene, counting(asked), run.device));
+  if (countWork) plans.push_back(makePlan(scene, axes::counting(asked), run.device));
   compileKernels(kernels, plans);
   checkUserKernels(scene, kernels.files(), {{deviceName(options), asked}});
 

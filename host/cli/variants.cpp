@@ -26,7 +26,7 @@ std::string rangeText(const Axis& axis) { return fmt::format("{} to {}", axis.le
 std::string devicesText(const AxisValue& value) {
   std::vector<std::string> kinds, needs;
   for (const DeviceKind& kind : deviceKinds())
-    if (fulfils(kind.routes, value)) kinds.push_back(kind.title);
+    if (axes::fulfils(kind.routes, value)) kinds.push_back(kind.title);
   if (value.needs.int64) needs.emplace_back("64-bit integers");
   if (value.needs.float64) needs.emplace_back("64-bit floats");
   if (value.needs.atomicMin64) needs.emplace_back("64-bit atomics");

@@ -33,9 +33,9 @@ void registerDevice(DeviceKind kind) {
     failUsage(fmt::format("device kind {}: there is one of that name; another name would do", kind.name));
   if (kind.routes.empty())
     failUsage(fmt::format("device kind {}: it takes no route; one or more of {} would do", kind.name,
-                          fmt::join(support::namesOf(routes(), &RouteInfo::name), ", ")));
+                          fmt::join(support::namesOf(axes::routes(), &axes::RouteInfo::name), ", ")));
   for (const std::string& route : kind.routes) try {
-      routeNamed(route);
+      axes::routeNamed(route);
     } catch (const Error& error) {
       throw Error(error.code(), fmt::format("device kind {}: {}", kind.name, error.what()));
     }

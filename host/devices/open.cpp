@@ -101,7 +101,7 @@ std::vector<std::string> kindNames() { return support::namesOf(deviceKinds(), &D
 
 Route routeOf(const DeviceInfo& device, const Variant& variant) {
   const std::string asked = variant.get("route");
-  return routeNamed(std::ranges::count(device.routes, asked) > 0 ? asked : device.routes.front()).route;
+  return axes::routeNamed(std::ranges::count(device.routes, asked) > 0 ? asked : device.routes.front()).route;
 }
 
 }  // namespace tessera

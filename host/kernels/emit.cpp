@@ -19,9 +19,9 @@ namespace {
 DeviceInfo machine(const char* name, Route route = Route::kSpirv) {
   DeviceInfo device;
   device.name = name;
-  for (const RouteInfo& other : routes())
-    if (other.spirv == routeInfo(route).spirv) device.routes.push_back(other.name);
-  if (routeInfo(route).oneThreadGroups) device.maxGroupBytes = kThreadGroupBytes;
+  for (const axes::RouteInfo& other : axes::routes())
+    if (other.spirv == axes::routeInfo(route).spirv) device.routes.push_back(other.name);
+  if (axes::routeInfo(route).oneThreadGroups) device.maxGroupBytes = axes::kThreadGroupBytes;
   return device;
 }
 

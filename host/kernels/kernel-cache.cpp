@@ -61,7 +61,7 @@ std::string entryText(const KernelInterface& interface, const std::string& binar
 
 std::optional<KernelInterface> readWhole(const fs::path& entry, Route route) try {
   const nlohmann::json stored = nlohmann::json::parse(readText(entry / kInterfaceFile));
-  if (stored.at("binaryHash") != support::sha256(readText(entry / routeInfo(route).binary))) return {};
+  if (stored.at("binaryHash") != support::sha256(readText(entry / axes::routeInfo(route).binary))) return {};
   if (stored.at("interfaceHash") != support::sha256(stored.at("interface").dump())) return {};
   return interfaceFromJson(stored.at("interface"));
 } catch (const nlohmann::json::exception&) {
@@ -73,7 +73,8 @@ std::optional<KernelInterface> readWhole(const fs::path& entry, Route route) try
 /// The interface of a whole entry; nothing where a file is missing, cut short or changed.
 std::optional<KernelInterface> readEntry(const fs::path& entry, Route route) {
   // They run as this process does: whoever can write them is it.
-  for (const fs::path& path : {entry.parent_path(), entry, entry / kInterfaceFile, entry / routeInfo(route).binary})
+  for (const fs::path& path :
+       {entry.parent_path(), entry, entry / kInterfaceFile, entry / axes::routeInfo(route).binary})
     support::checkOwn(path);
   return readWhole(entry, route);
 }
@@ -109,11 +110,11 @@ struct KernelCache::State {
 
   CompileSettings settings(const KernelRequest& request) {
     CompileSettings settings;
-    const RouteInfo& route = routeInfo(request.route);
+    const axes::RouteInfo& route = axes::routeInfo(request.route);
     const bool glsl = languageOf(request) == Language::kGlsl;
     if (!glsl) settings.slangc = slangcInUse();
-    if (route.then == SecondCompiler::kCxx) settings.cxx = tool(cxx, resolveCxx);
-    if (route.then == SecondCompiler::kGlslang || glsl) settings.glslang = tool(glslang, resolveGlslang);
+    if (route.then == axes::SecondCompiler::kCxx) settings.cxx = tool(cxx, resolveCxx);
+    if (route.then == axes::SecondCompiler::kGlslang || glsl) settings.glslang = tool(glslang, resolveGlslang);
     settings.slangSources = options.slangSources;
     settings.boundsChecks = options.boundsChecks && route.compiledChecks;
     settings.cxxFlags = cxxFlags;
@@ -134,13 +135,13 @@ struct KernelCache::State {
     add(request.modules.variant);
     add(settings.slangc.version);
     if (!glsl)
-      for (const std::string& flag : routeInfo(request.route).slangFlags) add(flag);
+      for (const std::string& flag : axes::routeInfo(request.route).slangFlags) add(flag);
     for (const fs::path& folder : searchFolders(""))
       add(folder.string());  // their order says which of two files is read
     for (const auto& [path, text] : sources)
       add(fs::absolute(path).lexically_normal().lexically_relative(settings.slangSources).string()), add(text);
     add(settings.glslang.version);
-    if (routeInfo(request.route).then == SecondCompiler::kCxx) {
+    if (axes::routeInfo(request.route).then == axes::SecondCompiler::kCxx) {
       add(machineText(settings.slangSources,
                       std::ranges::any_of(sources, [](const auto& source) { return usesLanes(source.second); }),
                       request.modules.laneWidth));
@@ -178,7 +179,7 @@ struct KernelCache::State {
     support::makeOwnFolder(entry);
     const support::TemporaryFolder work(options.folder, "work");
     const KernelInterface interface = compileKernel(request, settings, sources, work.path());
-    const fs::path made = work.path() / routeInfo(request.route).binary, binary = entry / made.filename();
+    const fs::path made = work.path() / axes::routeInfo(request.route).binary, binary = entry / made.filename();
     const std::string text = entryText(interface, readText(made));
     support::makeOwn(made);
     support::replaceOwn(made, binary);
@@ -216,7 +217,7 @@ bool KernelCache::has(const KernelRequest& request) {
 CompiledKernel KernelCache::get(const KernelRequest& request) {
   const auto [settings, sources, hash, entry] = state_->placeOf(request);
   CompiledKernel kernel{request.stage, binaryEntry(request),
-                        request.route, entry / routeInfo(request.route).binary,
+                        request.route, entry / axes::routeInfo(request.route).binary,
                         hash,          {},
                         request.file,  ""};
   if (!request.file.empty()) kernel.fileHash = support::sha256(sources.at(request.file.lexically_normal()));

@@ -40,7 +40,7 @@ bool appearsIn(const std::string& text, const std::string& name) {
 
 std::set<std::string> unusedResources(const json& reflection, Route route, const std::string& text) {
   std::set<std::string> unused;
-  if (!routeInfo(route).spirv) {
+  if (!axes::routeInfo(route).spirv) {
     for (const json& parameter : reflection.at("parameters"))
       if (const std::string name = parameter.at("name"); !appearsIn(text, name)) unused.insert(name);
   } else {
@@ -63,7 +63,7 @@ void readBlock(const json& block, KernelInterface& interface) {
 
 KernelInterface readReflection(const std::string& text, Route route, const std::string& generated) try {
   const json reflection = json::parse(text);
-  const bool spirv = routeInfo(route).spirv;
+  const bool spirv = axes::routeInfo(route).spirv;
   const std::set<std::string> unused = unusedResources(reflection, route, generated);
   KernelInterface interface;
   for (const json& parameter : reflection.at("parameters")) {

@@ -122,7 +122,7 @@ std::vector<std::string> slangCommand(const KernelRequest& request, const ToolIn
 /// Slang's C++ to a shared object.
 void compileCpp(const KernelRequest& request, const CompileSettings& settings, const std::string& generated,
                 const fs::path& work) {
-  const fs::path source = work / "kernel.cpp", made = work / routeInfo(request.route).binary;
+  const fs::path source = work / "kernel.cpp", made = work / axes::routeInfo(request.route).binary;
   support::writeInto(source, (settings.boundsChecks ? kBoundsChecks : "") +
                                  machineText(settings.slangSources, usesLanes(generated), request.modules.laneWidth) +
                                  generated);
@@ -138,7 +138,7 @@ void compileCpp(const KernelRequest& request, const CompileSettings& settings, c
 /// GLSL to a module, which comes back as words.
 std::vector<std::uint32_t> compileGlsl(const KernelRequest& request, const CompileSettings& settings,
                                        const fs::path& source, const fs::path& work) {
-  const fs::path made = work / routeInfo(request.route).binary;
+  const fs::path made = work / axes::routeInfo(request.route).binary;
   runCompiler(request,
               {settings.glslang.path.string(), "-V", "--target-env", "vulkan1.2", "-S", "comp", "-I" + work.string(),
                "-o", made.string(), source.string()},
@@ -170,7 +170,7 @@ const std::vector<std::string>& cxxBaseFlags() {
 }
 
 std::string binaryEntry(const KernelRequest& request) {
-  return routeInfo(request.route).spirv ? "main" : request.entry;
+  return axes::routeInfo(request.route).spirv ? "main" : request.entry;
 }
 
 namespace {
@@ -178,7 +178,7 @@ namespace {
 KernelInterface compileSlang(const KernelRequest& request, const CompileSettings& settings,
                              const std::map<fs::path, std::string>& sources, const fs::path& work) {
   const fs::path reflection = work / "reflection.json", dependencies = work / "dependencies";
-  const RouteInfo& route = routeInfo(request.route);
+  const axes::RouteInfo& route = axes::routeInfo(request.route);
   const fs::path made = work / route.written, binary = work / route.binary;
   std::vector<std::string> arguments =
       slangCommand(request, settings.slangc, settings.slangSources, route.slangFlags, work, made);
@@ -186,9 +186,9 @@ KernelInterface compileSlang(const KernelRequest& request, const CompileSettings
   runCompiler(request, arguments, made);
 
   if (fs::exists(dependencies)) checkDependencies(readText(dependencies), sources, work);
-  const std::string generated = route.then == SecondCompiler::kCxx ? readText(made) : "";
-  if (route.then == SecondCompiler::kCxx) compileCpp(request, settings, generated, work);
-  if (route.then == SecondCompiler::kGlslang) {
+  const std::string generated = route.then == axes::SecondCompiler::kCxx ? readText(made) : "";
+  if (route.then == axes::SecondCompiler::kCxx) compileCpp(request, settings, generated, work);
+  if (route.then == axes::SecondCompiler::kGlslang) {
     std::vector<std::uint32_t> words = compileGlsl(request, settings, made, work);
     decorateNoContraction(words);
     writeSpirv(binary, words);
@@ -220,7 +220,7 @@ Written writtenBySlang(const KernelRequest& request, const std::string& target, 
                        const fs::path& slangSources) {
   const support::TemporaryFolder work(support::temporaryRoot(), "tessera-emit");
   const fs::path made = work.path() / "made", reflection = work.path() / "reflection.json";
-  const RouteInfo& route = routeInfo(request.route);
+  const axes::RouteInfo& route = axes::routeInfo(request.route);
   std::vector<std::string> flags{"-target", target, "-fp-mode", "precise", "-line-directive-mode", "none"};
   if (target == route.name) flags = route.slangFlags;
   if (target == "wgsl") flags.push_back("-DTESSERA_WGSL");  // slang/machine/atomics.slang
@@ -230,7 +230,7 @@ Written writtenBySlang(const KernelRequest& request, const std::string& target, 
   flags.insert(flags.end(), {"-reflection-json", reflection.string()});
   try {
     runCompiler(request, slangCommand(request, slangc, slangSources, flags, work.path(), made), made);
-    const bool cxx = route.then == SecondCompiler::kCxx;
+    const bool cxx = route.then == axes::SecondCompiler::kCxx;
     std::string text = readText(made);
     if (cxx) text = machineText(slangSources, usesLanes(text), request.modules.laneWidth) + text;
     // WGSL reserves this word (W3C, WebGPU Shading Language, section 16.2).

@@ -56,7 +56,7 @@ std::string sizeText(const std::array<std::uint32_t, 3>& size) {
 void checkGroup(const CompiledKernel& users, const KernelInterface& own, const std::string& who) {
   const auto& size = users.interface.groupSize;
   if (size == own.groupSize) return;
-  if (routeInfo(users.route).oneThreadGroups)
+  if (axes::routeInfo(users.route).oneThreadGroups)
     failUnsupported(
         fmt::format("{}: groups of {} threads; on the CPU device one thread is the group: take kThreadsPerGroup and "
                     "kLanesPerThread "
@@ -85,7 +85,7 @@ KernelRequest requestOf(KernelRequest own, const fs::path& file) {
   if (const std::string why = support::whyNoFile(file); !why.empty())
     failUsage(fmt::format("{}: {}", describe(own.stage, file), why));
   const Language language = languageOf(file);
-  if (language == Language::kGlsl && !routeInfo(own.route).takesGlsl)
+  if (language == Language::kGlsl && !axes::routeInfo(own.route).takesGlsl)
     failUnsupported(fmt::format(
         "{}: GLSL reaches Vulkan devices only; the CPU device takes .slang, or .hlsl with one thread a group",
         describe(own.stage, file)));
@@ -132,7 +132,7 @@ void checkInterface(const CompiledKernel& users, const KernelInterface& own, con
 }
 
 std::string exactnessWarning(const CompiledKernel& users) {
-  if (!routeInfo(users.route).spirv) return "";
+  if (!axes::routeInfo(users.route).spirv) return "";
   const std::vector<std::string> violations = checkSpirv(users.binary);
   if (violations.empty()) return "";
   return fmt::format("{}: {} operation{} of its SPIR-V may round as the driver likes (parity tells), the first at {}",

@@ -46,7 +46,7 @@ KernelFiles runnable(const KernelFiles& files, const Plan& plan, const KernelCac
 std::pair<const DeviceKind*, std::string> compiledChecks() {
   for (const DeviceKind& kind : deviceKinds())
     for (const std::string& route : kind.routes)
-      if (routeNamed(route).compiledChecks) return {&kind, route};
+      if (axes::routeNamed(route).compiledChecks) return {&kind, route};
   return {nullptr, ""};
 }
 

@@ -58,7 +58,9 @@ Run beginRun(const Scene& scene, const Variant& variant, const Device& device, c
   try {
     run.kernelCompiler = kernels.cxx();
   } catch (const Error&) {
-    const auto needed = [](const std::string& name) { return routeNamed(name).then == SecondCompiler::kCxx; };
+    const auto needed = [](const std::string& name) {
+      return axes::routeNamed(name).then == axes::SecondCompiler::kCxx;
+    };
     if (std::ranges::any_of(device.info().routes, needed)) throw;  // other devices do without
   }
   return run;

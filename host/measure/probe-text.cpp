@@ -4,7 +4,7 @@
 
 namespace tessera {
 
-std::string routeName(Route route) { return routeInfo(route).name; }
+std::string routeName(Route route) { return axes::routeInfo(route).name; }
 
 std::string verdictOf(const Probe& probe) {
   return probe.passed() ? "passed" : probe.onlyFlushes() ? "flushes denormals" : "FAILED";

@@ -11,8 +11,8 @@
 namespace tessera {
 
 std::optional<std::string> missingNeed(const AxisValue& value, const DeviceInfo& device) {
-  if (!fulfils(device.routes, value))
-    return fmt::format("it is for {}{}", devicesFor(value), value.limits.empty() ? "" : ": " + value.limits);
+  if (!axes::fulfils(device.routes, value))
+    return fmt::format("it is for {}{}", axes::devicesFor(value), value.limits.empty() ? "" : ": " + value.limits);
   const Needs& needs = value.needs;
   if (needs.float64 && !device.float64) return device.name + " has no 64-bit floats (shaderFloat64)";
   if (needs.int64 && !device.int64) return device.name + " has no 64-bit integers (shaderInt64)";

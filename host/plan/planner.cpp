@@ -100,7 +100,7 @@ class Planner {
     choice_.take("counters", {"basic"});
   }
 
-  bool oneThreadGroups() const { return routeNamed(choice_.resolved().get("route")).oneThreadGroups; }
+  bool oneThreadGroups() const { return axes::routeNamed(choice_.resolved().get("route")).oneThreadGroups; }
 
   /// Measured on CPUs, where shapes are ahead on every scene (experiments/lanes). A GPU may want either.
   std::vector<std::string> sizeClasses() const {

@@ -65,7 +65,7 @@ KernelRequest kernelRequest(std::string_view name, const Plan& plan) {
   request.stage = stage.name;
   request.source = stage.source;
   request.entry = stage.entry;
-  request.route = routeNamed(plan.resolved.get("route")).route;
+  request.route = axes::routeNamed(plan.resolved.get("route")).route;
   request.modules = variantModules(name, plan.resolved);
   for (const Axis& axis : allAxes())
     if (std::ranges::find(axis.stages, name) != axis.stages.end())

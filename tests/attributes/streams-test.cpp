@@ -266,7 +266,7 @@ void shade(uint3 group: SV_GroupID, uint thread: SV_GroupIndex)
   options.files = {{"shade", file}};
   KernelCache kernels(options);
   Rasterizer rasterizer(machine.device(), kernels);
-  const Variant variant{{"shade", "id"}, {"route", routeInfo(machine.route()).name}};
+  const Variant variant{{"shade", "id"}, {"route", axes::routeInfo(machine.route()).name}};
   const Framebuffer image = rasterizer.render(scene, variant).image;
   CHECK(image.channels.empty());
   std::size_t painted = 0;

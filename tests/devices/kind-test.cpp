@@ -125,7 +125,7 @@ TEST_CASE("The axis route has the values that the list of routes has") {
   std::vector<std::string> names;
   for (const AxisValue& value : axis("route").values) {
     names.push_back(value.name);
-    CHECK(routeInfo(routeNamed(value.name).route).name == value.name);
+    CHECK(axes::routeInfo(axes::routeNamed(value.name).route).name == value.name);
   }
   CHECK(names == std::vector<std::string>{"cpp", "spirv", "glsl"});
 }

@@ -22,7 +22,7 @@ struct Region {
 void checkHits(Machine& machine, const Scene& scene, const Region& region, const std::vector<Variant>& paths) {
   const reference::Result oracle = reference::render(scene);
   for (const Variant& path : paths) {
-    const Variant variant = joined(path, {{"commit", "count"}});
+    const Variant variant = axes::joined(path, {{"commit", "count"}});
     INFO(scene.name << ", " << variant.text());
     const Frame frame = machine.render(scene, variant, {.countWork = true});
     std::size_t inside = 0, zero = 0, more = 0, strays = 0;

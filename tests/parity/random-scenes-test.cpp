@@ -42,7 +42,7 @@ Variant drawOthers(const Machine& machine, const Scene& scene, const Variant& pa
     const auto values = losslessValues(axis(name));
     const std::string& value = values[random.bits() % values.size()];
     if (value.empty()) continue;
-    const Variant more = joined(variant, {{name, value}});
+    const Variant more = axes::joined(variant, {{name, value}});
     try {
       machine.plan(scene, more);
     } catch (const Error&) {
@@ -84,7 +84,7 @@ PLACE_AND_SWIFTSHADER_TEST_CASE("Random scenes have the oracle's bits under all 
       // A path comes with one of the images only, so that it has one raster kernel.
       const std::size_t chosen = (next % (paths.size() / kImages + 1)) * kImages + seed % kImages;
       const Variant& path = paths[chosen < paths.size() ? chosen : seed % kImages];
-      const Variant variant = drawOthers(machine, scene, joined(path, image), random);
+      const Variant variant = drawOthers(machine, scene, axes::joined(path, image), random);
       INFO(scene.name << ", " << scene.width << " x " << scene.height << ", " << variant.text());
       const std::string different = difference(machine.render(scene, variant), oracle);
       CHECK(different == "");

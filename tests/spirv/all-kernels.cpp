@@ -48,7 +48,7 @@ Scene simpleScene(bool objectSpace) {
 
 std::vector<KernelRequest> kernelsOf(const Stage& stage, Route route, std::size_t strength) {
   DeviceInfo device;
-  device.routes = {routeInfo(route).name};
+  device.routes = {axes::routeInfo(route).name};
   Scene scene = simpleScene(stage.name != "project");
   if (stage.name == "attribute") attributeOf(scene).assign(scene.vertexCount(), 1.0f);
   Variant base = settingFor(stage.name);
@@ -76,7 +76,7 @@ std::vector<KernelRequest> kernelsOf(const Stage& stage, Route route, std::size_
   return kernels;
 }
 
-std::vector<std::string> settingsOf(const KernelRequest& kernel) { return settingsIn(kernel.variantName); }
+std::vector<std::string> settingsOf(const KernelRequest& kernel) { return axes::settingsIn(kernel.variantName); }
 
 std::vector<KernelRequest> coveringKernels(Route route, std::size_t strength) {
   std::vector<KernelRequest> all;

@@ -29,10 +29,10 @@ std::vector<Variant> paths(const DeviceInfo& device) {
   std::vector<Variant> all;
   for (const Variant& path : combinations({"binning", "commit"}, device)) {
     all.push_back(path);
-    if (path.get("binning") == "queue") all.push_back(joined(path, {{"capacity", "16"}, {"tile", "16"}}));
+    if (path.get("binning") == "queue") all.push_back(axes::joined(path, {{"capacity", "16"}, {"tile", "16"}}));
   }
   for (const Variant& binning : combinations({"binning"}, device))
-    all.push_back(joined(binning, {{"commit", "count"}}));
+    all.push_back(axes::joined(binning, {{"commit", "count"}}));
   return all;
 }
 
@@ -88,7 +88,7 @@ TEST_CASE("Shading survives bands and batches", "[cut]") {
   Machine cut = cutMachine(12 * 150 * 64 + 64);
   for (const char* shade : {"id", "flat", "smooth"})
     for (const Variant& binning : combinations({"binning"}, cut.info())) {
-      const Variant variant = joined(binning, {{"shade", shade}});
+      const Variant variant = axes::joined(binning, {{"shade", shade}});
       INFO(variant.text());
       const Frame frame = cut.render(scene, variant);
       CHECK(frame.counters.at("bands") == 8);

@@ -45,7 +45,7 @@ class Machine {
   Device& device() { return *device_; }
   const DeviceInfo& info() const { return device_->info(); }
   KernelCache& kernels() { return kernels_; }
-  Route route() const { return routeNamed(route_).route; }
+  Route route() const { return axes::routeNamed(route_).route; }
   /// Renders with this machine's route, unless the variant says another.
   Frame render(const Scene& scene, Variant variant = {}, const FrameOptions& options = {});
   Plan plan(const Scene& scene, Variant variant = {}) const;

@@ -50,7 +50,7 @@ std::vector<Variant> combinations(const std::vector<std::string>& names, const D
     for (const Variant& variant : all) {
       const std::size_t before = next.size();
       for (const std::string& value : losslessValues(axis(name))) {
-        const Variant more = value.empty() ? variant : joined(variant, {{name, value}});
+        const Variant more = value.empty() ? variant : axes::joined(variant, {{name, value}});
         if (isAccepted(more, device)) next.push_back(more);
       }
       if (next.size() == before) next.push_back(variant);
@@ -78,7 +78,7 @@ std::vector<Variant> eachAlone(const Variant& base, const DeviceInfo& device) {
   add(base);
   for (const std::string& name : implementationAxes())
     for (const std::string& value : losslessValues(axis(name)))
-      if (!base.has(name) && !value.empty()) add(joined(base, {{name, value}}));
+      if (!base.has(name) && !value.empty()) add(axes::joined(base, {{name, value}}));
   return all;
 }
 

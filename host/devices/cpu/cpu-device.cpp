@@ -162,7 +162,7 @@ class CpuDevice final : public Device {
     info_.name = support::processorName();
     info_.driver = cpuDriverText();
     info_.threads = crew_->threads();
-    info_.maxGroupBytes = kThreadGroupBytes;
+    info_.maxGroupBytes = axes::kThreadGroupBytes;
     info_.timeClock = "wall";
   }
 

@@ -57,7 +57,7 @@ void checkLimits(const SpirvModule& module, std::size_t storageBuffers, const Ad
 VulkanKernel::VulkanKernel(std::shared_ptr<Machine> machine, const CompiledKernel& compiled)
     : compiled_(compiled), description_(describe(compiled, "vulkan")) {
   const std::string who = fmt::format("kernel {}", compiled.stage);
-  if (!routeInfo(compiled.route).spirv) fail(who + ": compiled for the CPU, a Vulkan device takes SPIR-V");
+  if (!axes::routeInfo(compiled.route).spirv) fail(who + ": compiled for the CPU, a Vulkan device takes SPIR-V");
   SpirvModule module = readModule(compiled.binary);
 
   std::vector<vk::DescriptorSetLayoutBinding> bindings;
