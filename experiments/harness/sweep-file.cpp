@@ -257,7 +257,7 @@ std::vector<SweptKernel> readKernels(const TomlTable& table, const fs::path& fol
       const fs::path file = text.empty() ? fs::path() : (folder / text).lexically_normal();
       if (const std::string why = text.empty() ? "" : support::whyNoFile(file); !why.empty())
         table.refuse(key.str(), element, fmt::format("{}: {}", file.string(), why));
-      if (!text.empty()) at(table, key.str(), element, [&] { return languageOf(file); });
+      if (!text.empty()) at(table, key.str(), element, [&] { return kernels::languageOf(file); });
       addOnce(table, key.str(), element, kernel.files, file);
       if (!text.empty() && foreign.empty() && !liesIn(folder, file))
         foreign = refusalOf(table, std::string(key.str()), element, file);

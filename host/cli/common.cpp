@@ -184,7 +184,7 @@ KernelFiles kernelFilesOf(const Options& options) {
                             support::whatThereIs(stage, support::namesOf(stages(), &Stage::name))));
     if (const std::string why = support::whyNoFile(file); !why.empty())
       failUsage(fmt::format("--kernel {}: {}", text, why));
-    languageOf(file);
+    kernels::languageOf(file);
     if (!files.emplace(stage, file).second) failUsage(fmt::format("--kernel {}: the stage has a file already", text));
   }
   return files;

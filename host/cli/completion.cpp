@@ -114,7 +114,7 @@ Candidates valuesOf(const CLI::App& app, const std::string& kind, const std::str
   if (kind == "IMAGE" || kind == "IMAGE.png") return imageFiles(word);
   if (kind == "TARGET DIR") {
     Candidates all;
-    for (const EmitTarget& target : emitTargets()) all.push_back({target.name, ""});
+    for (const kernels::EmitTarget& target : kernels::emitTargets()) all.push_back({target.name, ""});
     return all;
   }
   if (kind == "COMMAND") {

@@ -70,7 +70,7 @@ std::vector<std::string> writeManifest(const std::filesystem::path& folder, cons
 
 ExitCode emit(const KernelsOptions& options) {
   namespace fs = std::filesystem;
-  const EmitTarget& target = emitTarget(options.emit[0]);
+  const kernels::EmitTarget& target = kernels::emitTarget(options.emit[0]);
   const fs::path folder = options.emit[1];
   const auto [scene, variant] = whatToEmit(options);
   const Plan plan = makePlan(scene, variant, target.device);
@@ -91,7 +91,7 @@ ExitCode emit(const KernelsOptions& options) {
   std::vector<WrittenStage> stages;
   for (KernelRequest request : kernelRequests(plan, {})) {
     request.route = target.route;
-    const Emitted emitted = emitKernel(kernels, request, target);
+    const kernels::Emitted emitted = kernels::emitKernel(kernels, request, target);
     const fs::path file = folder / fmt::format("{}.{}", emitted.stage, target.extension);
     if (emitted.complaint.empty())
       support::writeWhole(file, emitted.bytes);

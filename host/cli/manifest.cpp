@@ -41,7 +41,7 @@ std::uint32_t bytesOf(const Json& type) {
 }
 
 /// What the file calls it: slangc puts a number behind some names, and keeps others.
-Json nameInText(const std::string& text, const std::string& name, const EmitTarget& target) {
+Json nameInText(const std::string& text, const std::string& name, const kernels::EmitTarget& target) {
   if (target.name == "spirv") return nullptr;
   const bool member = target.name == "cpp" || target.name == "cuda";
   std::smatch found;
@@ -52,7 +52,7 @@ Json nameInText(const std::string& text, const std::string& name, const EmitTarg
 }
 
 /// Of a struct, with the file's names; of the others a name such as "u32" or "vec4<f32>".
-Json typeOf(const Json& type, const std::string& text, const EmitTarget& target) {
+Json typeOf(const Json& type, const std::string& text, const kernels::EmitTarget& target) {
   const std::string kind = type.at("kind");
   if (kind == "scalar") return scalarName(type.at("scalarType"));
   if (kind == "vector")
@@ -68,7 +68,7 @@ Json typeOf(const Json& type, const std::string& text, const EmitTarget& target)
   return {{"struct", type.value("name", "")}, {"fields", std::move(fields)}};
 }
 
-Json placeOf(const Json& parameter, bool block, bool writable, const EmitTarget& target) {
+Json placeOf(const Json& parameter, bool block, bool writable, const kernels::EmitTarget& target) {
   const Json& binding = parameter.at("binding");
   if (target.name == "hlsl")
     return {{"register", fmt::format("{}{}", block ? "b" : writable ? "u" : "t", binding.at("index").get<int>())}};
@@ -78,7 +78,7 @@ Json placeOf(const Json& parameter, bool block, bool writable, const EmitTarget&
 }
 
 /// slangc's C++ and CUDA keep every buffer in the struct of globals.
-bool isUsed(const Json& reflection, const std::string& name, const Json& inText, const EmitTarget& target) {
+bool isUsed(const Json& reflection, const std::string& name, const Json& inText, const kernels::EmitTarget& target) {
   if (target.name == "cpp" || target.name == "cuda") return !inText.is_null();
   for (const Json& bound : reflection.at("entryPoints").at(0).at("bindings"))
     if (bound.at("name") == name) return bound.at("binding").value("used", 1) != 0;
@@ -93,7 +93,7 @@ Json sizeOf(const std::string& name, const Plan& plan) {
   return fmt::format("{} * {}", doc->bytes, formula(doc->extent));
 }
 
-Json stageOf(const WrittenStage& written, const Plan& plan, const EmitTarget& target) {
+Json stageOf(const WrittenStage& written, const Plan& plan, const kernels::EmitTarget& target) {
   const std::string& stage = written.emitted.stage;
   if (written.file.empty()) return {{"stage", stage}, {"file", nullptr}, {"why", written.emitted.complaint}};
   const std::string& text = written.emitted.bytes;
@@ -159,7 +159,7 @@ Json outputs(const Recorder& recorder) {
 
 }  // namespace
 
-Manifest manifestOf(const Scene& scene, const Variant& asked, const Plan& plan, const EmitTarget& target,
+Manifest manifestOf(const Scene& scene, const Variant& asked, const Plan& plan, const kernels::EmitTarget& target,
                     const std::vector<WrittenStage>& stages) {
   Manifest manifest;
   Json json{{"format", "tessera kernels 1"},

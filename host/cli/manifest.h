@@ -17,7 +17,7 @@ namespace tessera::cli {
 
 /// A stage as it was written, and the file's name; "" where the target cannot take it.
 struct WrittenStage {
-  Emitted emitted;
+  kernels::Emitted emitted;
   std::string file;
 };
 
@@ -28,7 +28,7 @@ struct Manifest {
 };
 
 /// `plan` is that of the stages, made of `asked`. The frame runs once on the default device, for its commands.
-Manifest manifestOf(const Scene& scene, const Variant& asked, const Plan& plan, const EmitTarget& target,
+Manifest manifestOf(const Scene& scene, const Variant& asked, const Plan& plan, const kernels::EmitTarget& target,
                     const std::vector<WrittenStage>& stages);
 
 }  // namespace tessera::cli

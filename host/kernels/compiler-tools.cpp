@@ -20,7 +20,7 @@
 #define TESSERA_CXX "g++"
 #endif
 
-namespace tessera {
+namespace tessera::kernels {
 namespace {
 
 namespace fs = std::filesystem;
@@ -72,7 +72,7 @@ std::string checkSlangc(const fs::path& slangc) {
   if (!result.ok() || !fs::exists(module)) fail("cannot compile a small kernel to SPIR-V: " + firstLine(result.output));
   std::vector<std::string> violations;
   try {
-    violations = checkSpirv(module);
+    violations = tessera::checkSpirv(module);
   } catch (const Error&) {
     support::checkWritten(work.path(), "");  // slangc says nothing of a file that it could not write to its end
     throw;
@@ -235,4 +235,4 @@ std::string cpuDriverText() {
   }
 }
 
-}  // namespace tessera
+}  // namespace tessera::kernels

@@ -9,7 +9,7 @@
 #include <mutex>
 #include <string>
 
-namespace tessera {
+namespace tessera::kernels {
 
 /// Answers about programs, kept in a file of the cache folder by the program's path, size and time of change, so that a
 /// warm start runs none. A folder that cannot be written costs the memory, nothing else. Thread-safe.
@@ -47,4 +47,4 @@ ToolInfo resolveGlslang(ToolMemory& memory);
 /// it says so: the first kernel is refused then.
 std::string cpuDriverText();
 
-}  // namespace tessera
+}  // namespace tessera::kernels

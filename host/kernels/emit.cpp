@@ -12,7 +12,7 @@
 #include "host/support/files.h"
 #include "host/support/suggest.h"
 
-namespace tessera {
+namespace tessera::kernels {
 namespace {
 
 /// A machine whose kernels are made from those of a route, or of another with a binary of the same kind.
@@ -69,4 +69,4 @@ Emitted emitKernel(KernelCache& cache, const KernelRequest& request, const EmitT
   return emitted;
 }
 
-}  // namespace tessera
+}  // namespace tessera::kernels

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace tessera {
+namespace tessera::kernels {
 
 struct EmitTarget {
   std::string name;       ///< slangc's name for it
@@ -27,4 +27,4 @@ struct Emitted {
 };
 Emitted emitKernel(KernelCache& cache, const KernelRequest& request, const EmitTarget& target);
 
-}  // namespace tessera
+}  // namespace tessera::kernels

@@ -53,17 +53,17 @@ fs::path defaultSlangSources() {
 constexpr const char* kInterfaceFile = "interface.json";
 
 std::string entryText(const KernelInterface& interface, const std::string& binary) {
-  const nlohmann::json stored = toJson(interface);
+  const nlohmann::json stored = kernels::toJson(interface);
   return nlohmann::json{
       {"interface", stored}, {"interfaceHash", support::sha256(stored.dump())}, {"binaryHash", support::sha256(binary)}}
       .dump(1);
 }
 
 std::optional<KernelInterface> readWhole(const fs::path& entry, Route route) try {
-  const nlohmann::json stored = nlohmann::json::parse(readText(entry / kInterfaceFile));
-  if (stored.at("binaryHash") != support::sha256(readText(entry / axes::routeInfo(route).binary))) return {};
+  const nlohmann::json stored = nlohmann::json::parse(kernels::readText(entry / kInterfaceFile));
+  if (stored.at("binaryHash") != support::sha256(kernels::readText(entry / axes::routeInfo(route).binary))) return {};
   if (stored.at("interfaceHash") != support::sha256(stored.at("interface").dump())) return {};
-  return interfaceFromJson(stored.at("interface"));
+  return kernels::interfaceFromJson(stored.at("interface"));
 } catch (const nlohmann::json::exception&) {
   return {};
 } catch (const Error&) {
@@ -83,12 +83,12 @@ std::optional<KernelInterface> readEntry(const fs::path& entry, Route route) {
 
 struct KernelCache::State {
   Options options;
-  ToolMemory memory;
+  kernels::ToolMemory memory;
   std::vector<std::string> cxxFlags;
   std::atomic<std::size_t> hits{0}, compiled{0}, rebuilt{0};
   std::mutex toolsMutex;
   std::optional<ToolInfo> slangc, glslang;
-  std::optional<CxxInfo> cxx;
+  std::optional<kernels::CxxInfo> cxx;
 
   explicit State(Options given)
       : options(std::move(given)), memory(options.folder), cxxFlags(splitWords(TESSERA_KERNEL_CXX_FLAGS)) {
@@ -104,31 +104,32 @@ struct KernelCache::State {
   }
 
   const ToolInfo& slangcInUse() {
-    return tool(slangc,
-                [&](ToolMemory& known) { return chooseSlangc(known, support::slangcOf(options.slangSources)); });
+    return tool(slangc, [&](kernels::ToolMemory& known) {
+      return kernels::chooseSlangc(known, support::slangcOf(options.slangSources));
+    });
   }
 
-  CompileSettings settings(const KernelRequest& request) {
-    CompileSettings settings;
+  kernels::CompileSettings settings(const KernelRequest& request) {
+    kernels::CompileSettings settings;
     const axes::RouteInfo& route = axes::routeInfo(request.route);
-    const bool glsl = languageOf(request) == Language::kGlsl;
+    const bool glsl = kernels::languageOf(request) == kernels::Language::kGlsl;
     if (!glsl) settings.slangc = slangcInUse();
-    if (route.then == axes::SecondCompiler::kCxx) settings.cxx = tool(cxx, resolveCxx);
-    if (route.then == axes::SecondCompiler::kGlslang || glsl) settings.glslang = tool(glslang, resolveGlslang);
+    if (route.then == axes::SecondCompiler::kCxx) settings.cxx = tool(cxx, kernels::resolveCxx);
+    if (route.then == axes::SecondCompiler::kGlslang || glsl) settings.glslang = tool(glslang, kernels::resolveGlslang);
     settings.slangSources = options.slangSources;
     settings.boundsChecks = options.boundsChecks && route.compiledChecks;
     settings.cxxFlags = cxxFlags;
     return settings;
   }
 
-  std::string key(const KernelRequest& request, const CompileSettings& settings,
+  std::string key(const KernelRequest& request, const kernels::CompileSettings& settings,
                   const std::map<fs::path, std::string>& sources) const {
     std::string all;
     const auto add = [&](std::string_view part) {
       all += fmt::format("{}:", part.size()).append(part);
     };  // lengths keep parts apart
     add(kFormat);
-    const bool glsl = languageOf(request) == Language::kGlsl;
+    const bool glsl = kernels::languageOf(request) == kernels::Language::kGlsl;
     add(request.file.empty() ? request.source : request.stage + request.file.extension().string());
     add(request.entry);
     add(request.modules.settings);
@@ -136,18 +137,19 @@ struct KernelCache::State {
     add(settings.slangc.version);
     if (!glsl)
       for (const std::string& flag : axes::routeInfo(request.route).slangFlags) add(flag);
-    for (const fs::path& folder : searchFolders(""))
+    for (const fs::path& folder : kernels::searchFolders(""))
       add(folder.string());  // their order says which of two files is read
     for (const auto& [path, text] : sources)
       add(fs::absolute(path).lexically_normal().lexically_relative(settings.slangSources).string()), add(text);
     add(settings.glslang.version);
     if (axes::routeInfo(request.route).then == axes::SecondCompiler::kCxx) {
-      add(machineText(settings.slangSources,
-                      std::ranges::any_of(sources, [](const auto& source) { return usesLanes(source.second); }),
-                      request.modules.laneWidth));
+      add(kernels::machineText(
+          settings.slangSources,
+          std::ranges::any_of(sources, [](const auto& source) { return kernels::usesLanes(source.second); }),
+          request.modules.laneWidth));
       add(settings.cxx.version);
       add(settings.cxx.targetMacros);
-      for (const std::string& flag : cxxBaseFlags()) add(flag);
+      for (const std::string& flag : kernels::cxxBaseFlags()) add(flag);
       for (const std::string& flag : settings.cxxFlags) add(flag);
       add(settings.boundsChecks ? "bounds checks 2" : "");
     }
@@ -156,7 +158,7 @@ struct KernelCache::State {
 
   /// Where a kernel is kept, and what it is made from.
   struct Place {
-    CompileSettings settings;
+    kernels::CompileSettings settings;
     std::map<fs::path, std::string> sources;
     std::string hash;
     fs::path entry;
@@ -164,7 +166,7 @@ struct KernelCache::State {
   Place placeOf(const KernelRequest& request) {
     Place place{.settings = settings(request), .sources = {}, .hash = {}, .entry = {}};
     const fs::path source = request.file.empty() ? place.settings.slangSources / request.source : request.file;
-    place.sources = slangSources(place.settings.slangSources, source, request.modules.text());
+    place.sources = kernels::slangSources(place.settings.slangSources, source, request.modules.text());
     place.hash = key(request, place.settings, place.sources);
     place.entry = options.folder / place.hash.substr(0, 2) / place.hash;
     return place;
@@ -172,15 +174,15 @@ struct KernelCache::State {
 
   /// Compiles beside the entry and renames the files into it, the interface last. Two that do so at once rename the
   /// same bytes; should a compiler be less deterministic than that, the hashes tell and the entry is built again.
-  KernelInterface fill(const KernelRequest& request, const CompileSettings& settings,
+  KernelInterface fill(const KernelRequest& request, const kernels::CompileSettings& settings,
                        const std::map<fs::path, std::string>& sources, const fs::path& entry) try {
     if (std::error_code ignored; fs::exists(entry, ignored) && !fs::is_directory(entry, ignored))
       fs::remove(entry, ignored);
     support::makeOwnFolder(entry);
     const support::TemporaryFolder work(options.folder, "work");
-    const KernelInterface interface = compileKernel(request, settings, sources, work.path());
+    const KernelInterface interface = kernels::compileKernel(request, settings, sources, work.path());
     const fs::path made = work.path() / axes::routeInfo(request.route).binary, binary = entry / made.filename();
-    const std::string text = entryText(interface, readText(made));
+    const std::string text = entryText(interface, kernels::readText(made));
     support::makeOwn(made);
     support::replaceOwn(made, binary);
     support::writeOwn(entry / kInterfaceFile, text);
@@ -216,7 +218,7 @@ bool KernelCache::has(const KernelRequest& request) {
 
 CompiledKernel KernelCache::get(const KernelRequest& request) {
   const auto [settings, sources, hash, entry] = state_->placeOf(request);
-  CompiledKernel kernel{request.stage, binaryEntry(request),
+  CompiledKernel kernel{request.stage, kernels::binaryEntry(request),
                         request.route, entry / axes::routeInfo(request.route).binary,
                         hash,          {},
                         request.file,  ""};
@@ -271,8 +273,8 @@ const KernelFiles& KernelCache::files() const { return state_->options.files; }
 const ToolInfo& KernelCache::slangc() const { return state_->slangcInUse(); }
 
 std::string KernelCache::cxx() const {
-  const CxxInfo& cxx = state_->tool(state_->cxx, resolveCxx);
-  std::vector<std::string> flags = cxxBaseFlags();
+  const kernels::CxxInfo& cxx = state_->tool(state_->cxx, kernels::resolveCxx);
+  std::vector<std::string> flags = kernels::cxxBaseFlags();
   flags.insert(flags.end(), state_->cxxFlags.begin(), state_->cxxFlags.end());
   return fmt::format("{}, {} ({})", cxx.version, fmt::join(flags, " "), cxx.target);
 }

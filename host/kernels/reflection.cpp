@@ -10,7 +10,7 @@
 
 #include "host/axes/routes.h"
 
-namespace tessera {
+namespace tessera::kernels {
 namespace {
 
 using nlohmann::json;
@@ -121,4 +121,4 @@ KernelInterface interfaceFromJson(const json& stored) {
   return interface;
 }
 
-}  // namespace tessera
+}  // namespace tessera::kernels

@@ -6,7 +6,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-namespace tessera {
+namespace tessera::kernels {
 
 /// `json`: what `slangc -reflection-json` wrote; `text`: the C++ that slangc wrote, where the route goes on from C++,
 /// which tells the resources that it never touches; the reflection for SPIR-V and GLSL says that itself. Resources that
@@ -16,4 +16,4 @@ KernelInterface readReflection(const std::string& json, Route route, const std::
 nlohmann::json toJson(const KernelInterface& interface);
 KernelInterface interfaceFromJson(const nlohmann::json& json);
 
-}  // namespace tessera
+}  // namespace tessera::kernels

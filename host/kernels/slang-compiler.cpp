@@ -15,7 +15,7 @@
 #include "host/support/files.h"
 #include "host/support/subprocess.h"
 
-namespace tessera {
+namespace tessera::kernels {
 namespace {
 
 namespace fs = std::filesystem;
@@ -194,7 +194,7 @@ KernelInterface compileSlang(const KernelRequest& request, const CompileSettings
     writeSpirv(binary, words);
   }
   if (route.spirv && request.file.empty())
-    if (const std::vector<std::string> violations = checkSpirv(binary); !violations.empty())
+    if (const std::vector<std::string> violations = tessera::checkSpirv(binary); !violations.empty())
       fail(fmt::format("its SPIR-V is not exact: {}", violations[0]));
   return readReflection(readText(reflection), request.route, generated);
 }
@@ -244,4 +244,4 @@ Written writtenBySlang(const KernelRequest& request, const std::string& target, 
   }
 }
 
-}  // namespace tessera
+}  // namespace tessera::kernels

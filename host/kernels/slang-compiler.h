@@ -10,7 +10,7 @@
 
 #include "host/kernels/compiler-tools.h"
 
-namespace tessera {
+namespace tessera::kernels {
 
 /// All that decides what comes out, but for the text of the sources.
 struct CompileSettings {
@@ -43,4 +43,4 @@ struct Written {
 Written writtenBySlang(const KernelRequest& request, const std::string& target, const ToolInfo& slangc,
                        const std::filesystem::path& slangSources);
 
-}  // namespace tessera
+}  // namespace tessera::kernels

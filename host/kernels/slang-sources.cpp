@@ -12,7 +12,7 @@
 
 #include "host/support/file-faults.h"
 
-namespace tessera {
+namespace tessera::kernels {
 namespace {
 
 namespace fs = std::filesystem;
@@ -120,4 +120,4 @@ std::map<fs::path, std::string> slangSources(const fs::path& root, const fs::pat
   return sources;
 }
 
-}  // namespace tessera
+}  // namespace tessera::kernels

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace tessera {
+namespace tessera::kernels {
 
 /// Folders under `root` in which slangc looks for an imported module, in this order: each room of slang/README.md that
 /// kernels import from, then `root` itself. They need not exist.
@@ -35,4 +35,4 @@ std::string machineText(const std::filesystem::path& root, bool lanes, unsigned 
 /// user named it. kFailure for a shortage.
 std::string readText(const std::filesystem::path& path, ExitCode refusal = ExitCode::kFailure);
 
-}  // namespace tessera
+}  // namespace tessera::kernels

@@ -14,7 +14,7 @@
 
 #include "host/kernels/spirv.h"
 
-namespace tessera {
+namespace tessera::kernels {
 namespace {
 
 using Id = std::uint32_t;
@@ -352,4 +352,4 @@ CheckedSpirv addBoundsChecks(const std::vector<std::uint32_t>& words,
   return Checker(words, resources).run();
 }
 
-}  // namespace tessera
+}  // namespace tessera::kernels

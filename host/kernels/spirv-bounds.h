@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace tessera {
+namespace tessera::kernels {
 
 /// What the host reads and writes in the storage buffer that a checked module has beside its own, in 32-bit words. The
 /// first fault is kept; no later one overwrites it.
@@ -37,4 +37,4 @@ struct CheckedSpirv {
 CheckedSpirv addBoundsChecks(const std::vector<std::uint32_t>& words,
                              const std::map<std::string, std::uint32_t>& resources);
 
-}  // namespace tessera
+}  // namespace tessera::kernels

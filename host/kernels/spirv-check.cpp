@@ -39,11 +39,13 @@ const std::map<std::uint32_t, const char*> kExtendedNames = {
     {46, "FMix"},  {48, "Step"},      {49, "SmoothStep"},  {50, "Fma"},  {66, "Length"}, {67, "Distance"},
     {68, "Cross"}, {69, "Normalize"}, {79, "NMin"},        {80, "NMax"}, {81, "NClamp"}};
 
-bool isNoContraction(const SpirvInstruction& i) {
+bool isNoContraction(const kernels::SpirvInstruction& i) {
   return i.op == spv::OpDecorate && i.count >= 2 && i.operands[1] == spv::DecorationNoContraction;
 }
 
 }  // namespace
+
+namespace kernels {
 
 std::vector<std::string> checkSpirv(const std::vector<std::uint32_t>& words) {
   const std::vector<SpirvInstruction> all = spirvInstructions(words);
@@ -76,7 +78,13 @@ std::vector<std::string> checkSpirv(const std::vector<std::uint32_t>& words) {
   return violations;
 }
 
-std::vector<std::string> checkSpirv(const std::filesystem::path& module) { return checkSpirv(readSpirv(module)); }
+}  // namespace kernels
+
+std::vector<std::string> checkSpirv(const std::filesystem::path& module) {
+  return kernels::checkSpirv(kernels::readSpirv(module));
+}
+
+namespace kernels {
 
 void decorateNoContraction(std::vector<std::uint32_t>& words) {
   const std::vector<SpirvInstruction> all = spirvInstructions(words);
@@ -94,5 +102,7 @@ void decorateNoContraction(std::vector<std::uint32_t>& words) {
   if (!added.empty() && types != all.end())
     words.insert(words.begin() + static_cast<std::ptrdiff_t>(types->at), added.begin(), added.end());
 }
+
+}  // namespace kernels
 
 }  // namespace tessera

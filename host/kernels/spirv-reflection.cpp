@@ -12,7 +12,7 @@
 
 #include "host/kernels/spirv.h"
 
-namespace tessera {
+namespace tessera::kernels {
 namespace {
 
 using Id = std::uint32_t;
@@ -168,4 +168,4 @@ class Reader {
 
 KernelInterface readSpirvInterface(const std::vector<std::uint32_t>& words) { return Reader(words).read(); }
 
-}  // namespace tessera
+}  // namespace tessera::kernels

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace tessera {
+namespace tessera::kernels {
 
 /// Names come from the module's debug names, as glslang writes them. A storage block holds one run-time array and
 /// nothing else; the buffer's name is the block's instance name, or the array's where the block has none. The one
@@ -14,4 +14,4 @@ namespace tessera {
 /// resources, other descriptor sets, two of one binding.
 KernelInterface readSpirvInterface(const std::vector<std::uint32_t>& words);
 
-}  // namespace tessera
+}  // namespace tessera::kernels

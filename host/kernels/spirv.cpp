@@ -8,7 +8,7 @@
 
 #include "host/support/files.h"
 
-namespace tessera {
+namespace tessera::kernels {
 namespace {
 
 constexpr std::size_t kHeaderWords = 5;
@@ -48,4 +48,4 @@ void writeSpirv(const std::filesystem::path& module, const std::vector<std::uint
   support::writeInto(module, {reinterpret_cast<const char*>(words.data()), words.size() * 4});
 }
 
-}  // namespace tessera
+}  // namespace tessera::kernels

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace tessera {
+namespace tessera::kernels {
 
 /// Throws kFailure unless the file is a module in this machine's byte order.
 std::vector<std::uint32_t> readSpirv(const std::filesystem::path& module);
@@ -33,4 +33,4 @@ std::vector<std::string> checkSpirv(const std::vector<std::uint32_t>& words);
 /// reads it. No instruction changes.
 void decorateNoContraction(std::vector<std::uint32_t>& words);
 
-}  // namespace tessera
+}  // namespace tessera::kernels

@@ -14,7 +14,7 @@
 #include "host/kernels/slang-sources.h"
 #include "host/support/file-faults.h"
 
-namespace tessera {
+namespace tessera::kernels {
 namespace {
 
 namespace fs = std::filesystem;
@@ -133,11 +133,11 @@ void checkInterface(const CompiledKernel& users, const KernelInterface& own, con
 
 std::string exactnessWarning(const CompiledKernel& users) {
   if (!axes::routeInfo(users.route).spirv) return "";
-  const std::vector<std::string> violations = checkSpirv(users.binary);
+  const std::vector<std::string> violations = tessera::checkSpirv(users.binary);
   if (violations.empty()) return "";
   return fmt::format("{}: {} operation{} of its SPIR-V may round as the driver likes (parity tells), the first at {}",
                      describe(users.stage, users.file), violations.size(), violations.size() == 1 ? "" : "s",
                      violations[0]);
 }
 
-}  // namespace tessera
+}  // namespace tessera::kernels

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <string>
 
-namespace tessera {
+namespace tessera::kernels {
 
 enum class Language {
   kSlang,  ///< .slang
@@ -35,4 +35,4 @@ void checkInterface(const CompiledKernel& users, const KernelInterface& own, con
 /// What checkSpirv() finds in it, as one line; "" if nothing.
 std::string exactnessWarning(const CompiledKernel& users);
 
-}  // namespace tessera
+}  // namespace tessera::kernels

@@ -44,7 +44,7 @@ void compileKernels(KernelCache& kernels, const std::vector<Plan>& plans) {
   support::Progress progress("compiling kernels", requests.size());
   std::set<std::string> warnings;
   for (const auto& kernel : kernels.getAll(requests, [&](std::size_t done, std::size_t) { progress.at(done); }))
-    if (!kernel.file.empty()) warnings.insert(exactnessWarning(kernel));
+    if (!kernel.file.empty()) warnings.insert(kernels::exactnessWarning(kernel));
   for (const auto& warning : warnings)
     if (!warning.empty()) support::say(stderr, "warning: {}\n", warning);
 }

@@ -86,7 +86,7 @@ std::vector<KernelRequest> kernelRequests(const Plan& plan, const KernelFiles& f
   for (const std::string& name : plan.stages) {
     const auto file = files.find(name);
     KernelRequest own = kernelRequest(name, plan);
-    requests.push_back(file == files.end() ? std::move(own) : requestOf(std::move(own), file->second));
+    requests.push_back(file == files.end() ? std::move(own) : kernels::requestOf(std::move(own), file->second));
   }
   return requests;
 }
@@ -102,7 +102,7 @@ std::vector<CompiledKernel> compileStages(KernelCache& cache, const Plan& plan) 
   }
   for (const std::string& stream : plan.streams) all.elementSizes.emplace(stream, sizeof(float));
   for (std::size_t i = 0; i < kernels.size(); ++i)
-    if (!kernels[i].file.empty()) checkInterface(kernels[i], own[i].interface, all);
+    if (!kernels[i].file.empty()) kernels::checkInterface(kernels[i], own[i].interface, all);
   return kernels;
 }
 

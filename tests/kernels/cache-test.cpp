@@ -64,8 +64,8 @@ TEST_CASE("Whatever a kernel is made of changes its key and nothing else does") 
   std::set<std::string> hashes;
   const auto isNew = [&](const CompiledKernel& kernel) { return hashes.insert(kernel.hash).second; };
   const auto get = [&](const KernelRequest& request = scaleRequest()) { return shop.open().get(request); };
-  const std::string step = readText(shop.slang / "step-size.slang"),
-                    scale = readText(shop.slang / "stages/scale.slang");
+  const std::string step = kernels::readText(shop.slang / "step-size.slang"),
+                    scale = kernels::readText(shop.slang / "stages/scale.slang");
 
   CHECK(isNew(get()));
   CHECK_FALSE(isNew(get()));
@@ -110,7 +110,8 @@ TEST_CASE("Imports are found as slangc finds them") {
             "in_room;\n// "
             "import unrelated_;\n");
   std::set<std::string> names;
-  for (const auto& [path, text] : slangSources(shop.slang, shop.slang / "stages/many.slang", "import unrelated;\n"))
+  for (const auto& [path, text] :
+       kernels::slangSources(shop.slang, shop.slang / "stages/many.slang", "import unrelated;\n"))
     names.insert(path.lexically_relative(shop.slang).string());
   CHECK(names == std::set<std::string>{"stages/many.slang", "textual.slang", "stages/deep/part-one.slang",
                                        "step-size.slang", "stages/beside.slang", "unrelated.slang",
@@ -122,7 +123,7 @@ TEST_CASE("A broken entry is built again") {
   for (const Route route : {Route::kCpp, Route::kSpirv}) {
     const CompiledKernel made = shop.open().get(scaleRequest(route));
     const fs::path interface = made.binary.parent_path() / "interface.json";
-    const std::string goodBinary = readText(made.binary), goodInterface = readText(interface);
+    const std::string goodBinary = kernels::readText(made.binary), goodInterface = kernels::readText(interface);
     std::string flipped = goodBinary, otherOffset = goodInterface;
     flipped[flipped.size() / 2] ^= 1;
     otherOffset.replace(otherOffset.find("\"results\": "), 12, "\"results\": 7");
@@ -132,7 +133,7 @@ TEST_CASE("A broken entry is built again") {
       const CompiledKernel again = cache.get(scaleRequest(route));
       CHECK(cache.statistics().compiled == 1);
       CHECK(cache.statistics().rebuilt == rebuilt);
-      CHECK(readText(again.binary).size() == goodBinary.size());
+      CHECK(kernels::readText(again.binary).size() == goodBinary.size());
       CHECK(again.interface.resources == made.interface.resources);
       CHECK(shop.open().get(scaleRequest(route)).hash == made.hash);
     };

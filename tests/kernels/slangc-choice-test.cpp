@@ -80,16 +80,16 @@ TEST_CASE("A warm start runs no slangc") {
   const fs::path slangc = makeSlangc(shop, "good", "exec REAL \"$@\""), log = slangc.parent_path() / "log";
   const Environment environment("SLANGC", slangc.string());
   shop.open().get(scaleRequest());
-  CHECK(readText(log) == "called\ncalled\ncalled\n");  // the check, the version, the kernel
+  CHECK(kernels::readText(log) == "called\ncalled\ncalled\n");  // the check, the version, the kernel
   CHECK(shop.open().get(scaleRequest()).entry == "scaleAll");
-  CHECK(readText(log) == "called\ncalled\ncalled\n");
+  CHECK(kernels::readText(log) == "called\ncalled\ncalled\n");
   // What is remembered holds for this very file only, and a memory that cannot be read is none.
-  writeText(slangc, readText(slangc) + "# another one\n");
+  writeText(slangc, kernels::readText(slangc) + "# another one\n");
   shop.open().get(scaleRequest());
-  CHECK(readText(log) == "called\ncalled\ncalled\ncalled\ncalled\n");
+  CHECK(kernels::readText(log) == "called\ncalled\ncalled\ncalled\ncalled\n");
   writeText(shop.cache / "tools.json", "{ broken");
   shop.open().get(scaleRequest());
-  CHECK(readText(log) == "called\ncalled\ncalled\ncalled\ncalled\ncalled\ncalled\n");
+  CHECK(kernels::readText(log) == "called\ncalled\ncalled\ncalled\ncalled\ncalled\ncalled\n");
 }
 
 }  // namespace tessera::test

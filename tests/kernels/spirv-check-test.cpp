@@ -29,14 +29,15 @@ std::vector<std::uint32_t> compile(const std::string& expression,
   const support::ProcessResult result = support::runProcess(arguments);
   INFO(result.output);
   REQUIRE(result.ok());
-  return readSpirv(module);
+  return kernels::readSpirv(module);
 }
 
 }  // namespace
 
 TEST_CASE("An exact module has no violations") {
-  CHECK(checkSpirv(compile("x * y + z / x - sqrt(abs(floor(y)))")).empty());
-  CHECK(checkSpirv(compile("(u * v).x + (u * x).y + (u / v).z - float(int(x) < 3 ? min(int(y), 2) : 1)")).empty());
+  CHECK(kernels::checkSpirv(compile("x * y + z / x - sqrt(abs(floor(y)))")).empty());
+  CHECK(kernels::checkSpirv(compile("(u * v).x + (u * x).y + (u / v).z - float(int(x) < 3 ? min(int(y), 2) : 1)"))
+            .empty());
 }
 
 TEST_CASE("Planted violations are found by name") {
@@ -48,7 +49,7 @@ TEST_CASE("Planted violations are found by name") {
   std::string statements = "0";
   for (std::size_t i = 0; i < planted.size(); ++i)
     statements += ";\n    a[g.x + " + std::to_string(i + 4) + "] = " + planted[i].first;
-  const std::vector<std::string> violations = checkSpirv(compile(statements));
+  const std::vector<std::string> violations = kernels::checkSpirv(compile(statements));
   CHECK(violations.size() >= planted.size());
   for (const auto& [expression, name] : planted) {
     INFO(expression);
@@ -60,11 +61,11 @@ TEST_CASE("Planted violations are found by name") {
 TEST_CASE("Each operation without NoContraction is found") {
   for (const auto& [expression, name] :
        {std::pair{"x + y", "OpFAdd"}, {"x - y", "OpFSub"}, {"x * y", "OpFMul"}, {"x / y", "OpFDiv"}}) {
-    const std::vector<std::string> violations = checkSpirv(compile(expression, {"-fp-mode", "fast"}));
+    const std::vector<std::string> violations = kernels::checkSpirv(compile(expression, {"-fp-mode", "fast"}));
     REQUIRE(violations.size() == 1);
     CHECK(contains(violations[0], std::string(name) + " without NoContraction"));
   }
-  const std::vector<std::string> vector = checkSpirv(compile("(u * x).y + (u * x).z", {"-fp-mode", "fast"}));
+  const std::vector<std::string> vector = kernels::checkSpirv(compile("(u * x).y + (u * x).z", {"-fp-mode", "fast"}));
   CHECK(vector.size() == 2);
   CHECK(contains(vector.at(0), "OpVectorTimesScalar without NoContraction"));
 }
@@ -72,15 +73,15 @@ TEST_CASE("Each operation without NoContraction is found") {
 TEST_CASE("Decorating a module changes its annotations and nothing else") {
   std::vector<std::uint32_t> fast = compile("x * y + z / x - u.y * v.z", {"-fp-mode", "fast"});
   const std::vector<std::uint32_t> before = fast;
-  const std::size_t missing = checkSpirv(fast).size();
+  const std::size_t missing = kernels::checkSpirv(fast).size();
   REQUIRE(missing == 5);
-  decorateNoContraction(fast);
-  CHECK(checkSpirv(fast).empty());
+  kernels::decorateNoContraction(fast);
+  CHECK(kernels::checkSpirv(fast).empty());
   REQUIRE(fast.size() == before.size() + 3 * missing);
   const auto differ = std::mismatch(before.begin(), before.end(), fast.begin());
   CHECK(std::equal(differ.first, before.end(), differ.second + static_cast<std::ptrdiff_t>(3 * missing)));
   const std::vector<std::uint32_t> once = fast;
-  decorateNoContraction(fast);
+  kernels::decorateNoContraction(fast);
   CHECK(fast == once);
 }
 
@@ -104,7 +105,7 @@ TEST_CASE("What is no SPIR-V module is refused") {
   CHECK(contains(lineOf(ExitCode::kFailure, [&] { checkSpirv(shop.folder.path() / "none.spv"); }), "none.spv"));
   std::vector<std::uint32_t> words = compile("x + y");
   words.push_back(9u << 16 | 1);  // an instruction of nine words, of which there is one
-  CHECK(contains(lineOf(ExitCode::kFailure, [&] { checkSpirv(words); }), "does not fit"));
+  CHECK(contains(lineOf(ExitCode::kFailure, [&] { kernels::checkSpirv(words); }), "does not fit"));
 }
 
 }  // namespace tessera::test

@@ -26,7 +26,7 @@ TEST_CASE("An edit of a user's kernel or of what it includes compiles it again")
 
   std::size_t compiled = 0;
   const auto compilesAgain = [&](const std::string& stage, const std::filesystem::path& file) {
-    cache.get(requestOf(kernelRequest(stage, plan), file));
+    cache.get(kernels::requestOf(kernelRequest(stage, plan), file));
     return cache.statistics().compiled != std::exchange(compiled, cache.statistics().compiled);
   };
   for (const auto& [stage, name, include] : {std::tuple{"transform", "transform.comp", "#include \"part.h\"\n"},
@@ -35,7 +35,7 @@ TEST_CASE("An edit of a user's kernel or of what it includes compiles it again")
     INFO(name);
     bench.write("part.h", "#define kPart 1\n");
     bench.write("part.slang", "module part;\n");
-    const std::string text = readText(example(name)),
+    const std::string text = kernels::readText(example(name)),
                       from = std::string(name) == "transform.comp" ? "#include \"settings.glsl\"" : "\n";
     std::string including = text;
     including.insert(including.find(from), "\n" + std::string(include));

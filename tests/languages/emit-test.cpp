@@ -43,7 +43,7 @@ void checkManifest(const Desk& desk, const std::string& target) {
 }  // namespace
 
 TEST_CASE("Every stage of a variant is written for every target") {
-  for (const auto& target : tessera::emitTargets()) {
+  for (const auto& target : tessera::kernels::emitTargets()) {
     Desk desk;
     const auto outcome =
         desk.tessera("kernels --emit " + target.name + " made/here --set commit=two-pass --set shade=none");
@@ -53,7 +53,7 @@ TEST_CASE("Every stage of a variant is written for every target") {
       const std::string file = "made/here/" + stage + "." + target.extension;
       CHECK(contains(outcome.out, file));
       if (target.name == "spirv")
-        CHECK(!tessera::spirvInstructions(tessera::readSpirv(desk.path() / file)).empty());
+        CHECK(!tessera::kernels::spirvInstructions(tessera::kernels::readSpirv(desk.path() / file)).empty());
       else
         CHECK(contains(desk.read(file).substr(0, 1u << 20), kSigns.at(target.name)));
     }

@@ -24,7 +24,7 @@ fs::path Bench::write(const std::string& name, const std::string& text) const {
 }
 
 fs::path Bench::edited(const std::string& name, const Edits& edits) const {
-  std::string text = readText(example(name));
+  std::string text = kernels::readText(example(name));
   for (const auto& [from, to] : edits) {
     const std::size_t at = text.find(from);
     INFO(name << ": " << from);

@@ -66,7 +66,7 @@ std::string judgeSpirv(const fs::path& module) {
 
 /// What runs here is what was judged: C++ by the compiler of the CPU's kernels, GLSL by glslang, SPIR-V of both routes
 /// by spirv-val.
-std::string judge(KernelCache& cache, const KernelRequest& request, const EmitTarget& target,
+std::string judge(KernelCache& cache, const KernelRequest& request, const kernels::EmitTarget& target,
                   const std::string& bytes) {
   if (target.name == "wgsl") return judgedBy({TESSERA_JUDGE_WGSL}, bytes, "kernel.wgsl");
   if (target.name != "cpp" && target.name != "glsl" && target.name != "spirv") return "";
@@ -88,9 +88,9 @@ class Table {
  public:
   std::string text() {
     std::string text = "| stage | brought by |";
-    for (const EmitTarget& target : emitTargets()) text += fmt::format(" {} |", target.device.name);
+    for (const kernels::EmitTarget& target : kernels::emitTargets()) text += fmt::format(" {} |", target.device.name);
     text += "\n|---|---|";
-    for (std::size_t i = 0; i < emitTargets().size(); ++i) text += "---|";
+    for (std::size_t i = 0; i < kernels::emitTargets().size(); ++i) text += "---|";
     text += '\n';
     for (const Kind& kind : kKinds) text += rows(kind);
     for (std::size_t i = 0; i < notes_.size(); ++i) text += fmt::format("\n{}. {}\n", i + 1, notes_[i]);
@@ -100,7 +100,7 @@ class Table {
  private:
   std::string rows(const Kind& kind) {
     const Scene scene = sceneOf(kind);
-    const Plan all = makePlan(scene, Variant(kind.settings), emitTarget("spirv").device);
+    const Plan all = makePlan(scene, Variant(kind.settings), kernels::emitTarget("spirv").device);
     std::string text;
     for (const std::string& stage : all.stages) {
       // 64-bit atomics are worth rows of their own.
@@ -111,7 +111,7 @@ class Table {
       seen_.push_back(stage);
       text += fmt::format("| {} | {} |", stage, kind.label);
       std::vector<std::future<Cell>> cells;
-      for (const EmitTarget& target : emitTargets())
+      for (const kernels::EmitTarget& target : kernels::emitTargets())
         cells.push_back(std::async(std::launch::async, [&] { return cell(kind, scene, stage, target); }));
       for (auto& waiting : cells) {
         const Cell made = waiting.get();
@@ -122,12 +122,12 @@ class Table {
     return text;
   }
 
-  Cell cell(const Kind& kind, const Scene& scene, const std::string& stage, const EmitTarget& target) {
+  Cell cell(const Kind& kind, const Scene& scene, const std::string& stage, const kernels::EmitTarget& target) {
     try {
       Variant variant(kind.settings);
       if (target.name == "glsl") variant.set("route", "glsl");
       const KernelRequest request = kernelRequest(stage, makePlan(scene, variant, target.device));
-      const Emitted emitted = emitKernel(cache_, request, target);
+      const kernels::Emitted emitted = kernels::emitKernel(cache_, request, target);
       if (!emitted.complaint.empty()) return {"no", withoutPlace(emitted.complaint)};
       const std::string said = judge(cache_, request, target, emitted.bytes);
       if (!said.empty()) return {"not valid", said};

@@ -28,7 +28,7 @@ struct Listed {
 /// Module -> its line in the table under that heading.
 std::map<std::string, Listed> listedModules() {
   static const std::regex row(R"(\| `(\w+)` \| (.*) \| (.*) \|)");
-  std::istringstream lines(readText(kSlang / "README.md"));
+  std::istringstream lines(kernels::readText(kSlang / "README.md"));
   std::map<std::string, Listed> modules;
   bool here = false;
   for (std::string line; std::getline(lines, line);) {
@@ -54,7 +54,7 @@ std::map<std::string, fs::path> filesOfModules() {
   std::map<std::string, fs::path> files;
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(kSlang))
     if (entry.path().extension() == ".slang") {
-      const std::string text = readText(entry.path());
+      const std::string text = kernels::readText(entry.path());
       if (std::smatch match; std::regex_search(text, match, declared)) files[match[1]] = entry.path();
     }
   return files;
@@ -69,7 +69,7 @@ TEST_CASE("The list of modules for users' kernels is whole, and each module give
   for (const auto& [module, line] : listedModules()) {
     listed.insert(module);
     if (!files.contains(module)) continue;
-    const std::string text = readText(files.at(module));
+    const std::string text = kernels::readText(files.at(module));
     static const std::regex quoted(R"(`(\w+)`)");
     std::size_t names = 0;
     for (std::sregex_iterator i(line.gives.begin(), line.gives.end(), quoted), end; i != end; ++i, ++names) {
@@ -94,8 +94,8 @@ TEST_CASE("A user's kernel may import the modules that are listed for its stage"
                        : stage.name == "raster-items"                     ? items
                                                                           : tiles;
     const fs::path file = bench.write(stage.name + "-user.slang", importsFor(stage.name) + "import rasterizer.clip;\n" +
-                                                                      readText(example("by-depth.slang")));
-    CHECK_NOTHROW(machine.kernels().get(requestOf(kernelRequest(stage.name, plan), file)));
+                                                                      kernels::readText(example("by-depth.slang")));
+    CHECK_NOTHROW(machine.kernels().get(kernels::requestOf(kernelRequest(stage.name, plan), file)));
   }
 }
 
@@ -103,7 +103,7 @@ TEST_CASE("A kernel that imports all modules that are listed for its stage gives
   const Bench bench;
   for (const std::string stage : {"transform", "raster-tiles"}) {
     const std::string name = stage + ".slang";
-    const fs::path file = bench.write(name, importsFor(stage) + readText(kSlang / "stages" / name));
+    const fs::path file = bench.write(name, importsFor(stage) + kernels::readText(kSlang / "stages" / name));
     for (const char* const route : {"cpp", "spirv"}) {
       INFO(stage << " on " << route);
       Machine machine = machineWith(route, {{stage, file}});

@@ -46,11 +46,12 @@ TEST_CASE("Transform by hand leaves nothing to the driver") {
   for (const char* clip : {"on", "off"}) {
     const Plan plan = machine.plan(smallScene(), {{"clip", clip}, {"projection", "perspective"}});
     const KernelRequest own = kernelRequest("transform", plan);
-    const CompiledKernel kernel = machine.kernels().get(requestOf(own, example("transform.comp")));
-    CHECK(exactnessWarning(kernel) == "");
+    const CompiledKernel kernel = machine.kernels().get(kernels::requestOf(own, example("transform.comp")));
+    CHECK(kernels::exactnessWarning(kernel) == "");
     const Bench bench;
     const auto careless = bench.edited("transform.comp", {{"precise vec4 c;", "vec4 c;"}});
-    CHECK(contains(exactnessWarning(machine.kernels().get(requestOf(own, careless))), "NoContraction"));
+    CHECK(
+        contains(kernels::exactnessWarning(machine.kernels().get(kernels::requestOf(own, careless))), "NoContraction"));
   }
 }
 

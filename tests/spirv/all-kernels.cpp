@@ -89,7 +89,7 @@ std::string spirvVal(const std::vector<std::uint32_t>& words) {
   if (program.empty()) fail("spirv-val is not installed: apt-get install spirv-tools");
   const support::TemporaryFolder folder(std::filesystem::temp_directory_path(), "tessera-spirv-val");
   const std::filesystem::path file = folder.path() / "module.spv";
-  writeSpirv(file, words);
+  kernels::writeSpirv(file, words);
   const support::ProcessResult result =
       support::runProcess({program.string(), "--target-env", "vulkan1.2", file.string()});
   return result.ok() ? "" : "spirv-val: " + result.output;
@@ -106,9 +106,9 @@ std::vector<std::string> findings(KernelCache& cache, const std::vector<KernelRe
     // Without OpSource, whose language number for Slang Debian 12's spirv-val does not know.
     const std::vector<std::uint32_t> words = vulkan::readModule(compiled[i].binary).words;
     if (const std::string said = spirvVal(words); !said.empty()) report(said);
-    const std::vector<std::uint32_t> checked = addBoundsChecks(words, compiled[i].interface.resources).words;
+    const std::vector<std::uint32_t> checked = kernels::addBoundsChecks(words, compiled[i].interface.resources).words;
     if (const std::string said = spirvVal(checked); !said.empty()) report("with bounds checks: " + said);
-    for (const std::string& violation : checkSpirv(checked)) report("with bounds checks: " + violation);
+    for (const std::string& violation : kernels::checkSpirv(checked)) report("with bounds checks: " + violation);
   }
   return lines;
 }

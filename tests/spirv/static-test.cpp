@@ -83,19 +83,19 @@ TEST_CASE("SPIR-V by way of GLSL is exact and valid") {
 TEST_CASE("a NoContraction that is missing is found on either route") {
   for (const Route route : {Route::kSpirv, Route::kGlsl}) {
     const CompiledKernel kernel = projectKernel(route);
-    std::vector<std::uint32_t> words = readSpirv(kernel.binary);
-    REQUIRE(checkSpirv(words).empty());
+    std::vector<std::uint32_t> words = kernels::readSpirv(kernel.binary);
+    REQUIRE(kernels::checkSpirv(words).empty());
     REQUIRE(findInstruction(words, kOpFAdd) < words.size());
     REQUIRE(findInstruction(words, kOpFMul) < words.size());
     const std::size_t decoration = findInstruction(words, kOpDecorate, 2, kNoContraction);
     REQUIRE(decoration < words.size());
     words.erase(words.begin() + static_cast<std::ptrdiff_t>(decoration), words.begin() + static_cast<std::ptrdiff_t>(decoration) + 3);
-    CHECK(checkSpirv(words).size() == 1);
+    CHECK(kernels::checkSpirv(words).size() == 1);
   }
 }
 
 TEST_CASE("spirv-val finds what is no module") {
-  std::vector<std::uint32_t> words = readSpirv(projectKernel(Route::kGlsl).binary);
+  std::vector<std::uint32_t> words = kernels::readSpirv(projectKernel(Route::kGlsl).binary);
   REQUIRE(spirvVal(words) == "");
   const std::size_t sum = findInstruction(words, kOpFAdd);
   REQUIRE(sum < words.size());

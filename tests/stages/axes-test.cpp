@@ -97,7 +97,7 @@ TEST_CASE("Each value of an axis that kernels read has kernels of its own", "[ax
     for (const std::string& stage : axis.stages)
       for (const AxisValue& value : axis.values)
         if (const auto plan = planWith(stage, axis.name, value.name); plan && plan->resolved.get("route") == "spirv")
-          kernels[value.name][stage] = stripped(readSpirv(cache.get(kernelRequest(stage, *plan)).binary));
+          kernels[value.name][stage] = stripped(kernels::readSpirv(cache.get(kernelRequest(stage, *plan)).binary));
     for (const AxisValue& a : axis.values)
       for (const AxisValue& b : axis.values) {
         if (a.slang == b.slang) continue;  // the host does it: evidence.cpp shows what
@@ -121,7 +121,7 @@ TEST_CASE("Each route has kernels of its own", "[axes]") {
     for (const AxisValue& route : axis("route").values) {
       const auto plan = planWith(stage.name, "route", route.name);
       REQUIRE(plan);
-      binaries.insert(readText(cache.get(kernelRequest(stage.name, *plan)).binary));
+      binaries.insert(kernels::readText(cache.get(kernelRequest(stage.name, *plan)).binary));
     }
     CHECK(binaries.size() == axis("route").values.size());
   }

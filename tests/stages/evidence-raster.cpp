@@ -11,7 +11,7 @@ std::vector<std::uint32_t> rasterModule(const Variant& variant) {
   KernelCache cache;
   DeviceInfo device;
   device.routes = {"spirv", "glsl"};
-  return readSpirv(cache.get(kernelRequest("raster-tiles", makePlan(Scene{}, variant, device))).binary);
+  return kernels::readSpirv(cache.get(kernelRequest("raster-tiles", makePlan(Scene{}, variant, device))).binary);
 }
 /// Instructions of a module that `counts` is true of, by opcode and first operand.
 std::size_t instructions(const Variant& variant, const std::function<bool(std::uint32_t, std::uint32_t)>& counts) {

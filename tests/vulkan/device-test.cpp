@@ -16,7 +16,7 @@ namespace {
 
 using Words = std::vector<std::uint32_t>;
 
-KernelCache& kernels() {
+KernelCache& kernelCache() {
   static KernelCache cache([] {
     KernelCache::Options options;
     options.slangSources = TESSERA_SOURCE_DIR "/tests/vulkan";
@@ -44,7 +44,7 @@ struct Machine {
   }
 
   std::unique_ptr<Kernel> kernel(const std::string& entry) {
-    return device->createKernel(kernels().get({entry, "device-kernels.slang", entry, Route::kSpirv, {}, ""}));
+    return device->createKernel(kernelCache().get({entry, "device-kernels.slang", entry, Route::kSpirv, {}, ""}));
   }
   std::unique_ptr<Buffer> buffer(const Words& words) {
     auto made = device->createBuffer(words.size() * 4, "words");
@@ -354,7 +354,7 @@ TEST_CASE("SwiftShader is there without being asked for and chosen only by name"
   CHECK(!device->info().atomicMin64);
   try {
     device->createKernel(
-        kernels().get({"atomicMinWide", "device-kernels.slang", "atomicMinWide", Route::kSpirv, {}, ""}));
+        kernelCache().get({"atomicMinWide", "device-kernels.slang", "atomicMinWide", Route::kSpirv, {}, ""}));
     FAIL("64-bit atomics on SwiftShader");
   } catch (const Error& error) {
     CHECK(error.code() == ExitCode::kUnsupported);

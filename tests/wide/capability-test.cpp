@@ -26,8 +26,8 @@ DeviceInfo device32() {
 }
 
 bool isWide(const CompiledKernel& kernel) {
-  const std::vector<std::uint32_t> words = readSpirv(kernel.binary);
-  return std::ranges::any_of(spirvInstructions(words), [](const SpirvInstruction& i) {
+  const std::vector<std::uint32_t> words = kernels::readSpirv(kernel.binary);
+  return std::ranges::any_of(kernels::spirvInstructions(words), [](const kernels::SpirvInstruction& i) {
     return i.op == kOpCapability && kWideCapabilities.contains(i.operands[0]);
   });
 }

@@ -160,7 +160,7 @@ class CpuDevice final : public Device {
     info_.api = kind.name;
     info_.routes = kind.routes;
     info_.name = support::processorName();
-    info_.driver = cpuDriverText();
+    info_.driver = kernels::cpuDriverText();
     info_.threads = crew_->threads();
     info_.maxGroupBytes = axes::kThreadGroupBytes;
     info_.timeClock = "wall";

@@ -53,7 +53,7 @@ struct Sizes {
 }  // namespace
 
 SpirvModule readModule(const std::filesystem::path& path) {
-  const std::vector<std::uint32_t> source = readSpirv(path);
+  const std::vector<std::uint32_t> source = kernels::readSpirv(path);
   SpirvModule module;
   module.words.assign(source.begin(), source.begin() + kHeaderWords);
   Sizes sizes;

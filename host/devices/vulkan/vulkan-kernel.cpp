@@ -98,7 +98,7 @@ void VulkanKernel::addChecks(std::vector<std::uint32_t>& words, const Adapter& a
     failUsage(fmt::format("{}: bounds checks need a storage buffer beside its {}, all that {} has", description_,
                           storage_.size(), adapter.name()));
   try {
-    checks_ = addBoundsChecks(words, compiled_.interface.resources);
+    checks_ = kernels::addBoundsChecks(words, compiled_.interface.resources);
   } catch (const Error& error) {
     throw Error(error.code(), fmt::format("{}: {}", description_, error.what()));
   }

@@ -31,7 +31,7 @@ class VulkanKernel : public Kernel {
   /// Structured buffers, and of a checked kernel the device's FaultRecord behind them.
   const std::vector<Resource>& storage() const { return storage_; }
   const char* description() const { return description_.c_str(); }       ///< as messages call it
-  const std::optional<CheckedSpirv>& checks() const { return checks_; }  ///< its words are with the driver
+  const std::optional<kernels::CheckedSpirv>& checks() const { return checks_; }  ///< its words are with the driver
   bool hasBlock() const { return hasBlock_; }
   std::uint32_t blockBinding() const { return blockBinding_; }
   const std::shared_ptr<const Pipeline>& pipeline() const { return pipeline_; }
@@ -42,7 +42,7 @@ class VulkanKernel : public Kernel {
 
   CompiledKernel compiled_;
   std::string description_;
-  std::optional<CheckedSpirv> checks_;
+  std::optional<kernels::CheckedSpirv> checks_;
   std::vector<Resource> storage_;
   bool hasBlock_ = false;
   std::uint32_t blockBinding_ = 0;
