@@ -16,8 +16,8 @@ namespace {
 constexpr std::string_view kDevice = "--device=";
 
 std::unique_ptr<Device> open(const std::string& name) {
-  if (findKind(name) == nullptr)
-    failUsage(fmt::format("{}{}: no such device; {} would be", kDevice, name, deviceForms()));
+  if (devices::findKind(name) == nullptr)
+    failUsage(fmt::format("{}{}: no such device; {} would be", kDevice, name, devices::deviceForms()));
   return openDevice(name);
 }
 
@@ -29,7 +29,7 @@ benchmark::Counter rate(std::size_t count) {
 
 int runSuite(const char* program, int argc, char** argv, const std::function<void(Machine&)>& add) try {
   benchmark::Initialize(&argc, argv);
-  std::string device = defaultDevice();
+  std::string device = devices::defaultDevice();
   for (int i = 1; i < argc; ++i) {
     if (!std::string_view(argv[i]).starts_with(kDevice)) continue;
     device = std::string_view(argv[i]).substr(kDevice.size());

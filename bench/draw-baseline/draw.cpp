@@ -15,10 +15,10 @@
 namespace tessera {
 namespace {
 
-using vulkan::Block;
-using vulkan::Machine;
-using vulkan::Residence;
-using vulkan::translated;
+using devices::vulkan::Block;
+using devices::vulkan::Machine;
+using devices::vulkan::Residence;
+using devices::vulkan::translated;
 
 constexpr vk::Format kIdFormat = vk::Format::eR32Uint, kDepthFormat = vk::Format::eD32Sfloat;
 
@@ -91,7 +91,7 @@ vk::raii::Pipeline makePipeline(const vk::raii::Device& device, vk::PipelineLayo
   return {device, nullptr, info};
 }
 
-void checkDrawable(const Scene& scene, const vulkan::Adapter& adapter) {
+void checkDrawable(const Scene& scene, const devices::vulkan::Adapter& adapter) {
   const auto& limits = adapter.properties.limits;
   if (!adapter.features.geometryShader)
     failUnsupported(fmt::format("draw baseline: {} has no gl_PrimitiveID in fragment shaders", adapter.name()));

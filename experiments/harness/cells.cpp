@@ -84,7 +84,7 @@ std::vector<SweepPoint> cells(const Sweep& sweep) {
   for (const std::string& device : sweep.devices)
     for (std::size_t scene = 0; scene < sweep.scenes.size(); ++scene)
       for (const Size size : sweep.sizes) {
-        if (!takesThreads(device)) {
+        if (!devices::takesThreads(device)) {
           addGroup(device, scene, size, 0);
           continue;
         }

@@ -60,7 +60,7 @@ std::string mismatches(const Difference& d) {
 /// An implementation variant that differs: an error, but where the device's arithmetic promises nothing.
 void judge(Run& run, const CheckTools& tools) {
   run.message = mismatches(*run.difference);
-  const Probe probe = probeDevice(tools.device, tools.kernels, routeOf(run.device, run.variant));
+  const Probe probe = probeDevice(tools.device, tools.kernels, devices::routeOf(run.device, run.variant));
   if (!probe.passed()) run.message += "; the device's arithmetic fails its probe: " + firstFailure(probe);
   if (probe.passed() || probe.onlyFlushes()) run.status = "error";
 }

@@ -174,18 +174,18 @@ std::vector<Size> readSizes(const TomlTable& table) {
 
 /// It becomes a part of a folder's name.
 bool isDeviceName(std::string_view name) {
-  return findKind(name) != nullptr && name.find_first_of("/\r\n") == name.npos;
+  return devices::findKind(name) != nullptr && name.find_first_of("/\r\n") == name.npos;
 }
 
 std::vector<std::string> readDevices(const TomlTable& top) {
   const toml::array* const list =
-      top.list("devices", fmt::format("a list such as [\"{}\"]", fmt::join(kindNames(), "\", \"")));
-  if (!list) return {defaultDevice()};
+      top.list("devices", fmt::format("a list such as [\"{}\"]", fmt::join(devices::kindNames(), "\", \"")));
+  if (!list) return {devices::defaultDevice()};
   std::vector<std::string> devices;
   for (const toml::node& node : *list) {
     const std::string name = textOf(top, "devices", node, "a device's name in quotes");
     if (!isDeviceName(name))
-      top.refuse("devices", node, fmt::format("no device '{}'; {} would be right", name, deviceForms()));
+      top.refuse("devices", node, fmt::format("no device '{}'; {} would be right", name, devices::deviceForms()));
     addOnce(top, "devices", node, devices, name);
   }
   return devices;
@@ -361,7 +361,7 @@ void change(Sweep& sweep, const Changes& changes) {
   sweep.devices.clear();
   for (const std::string& name : changes.devices) {
     if (!isDeviceName(name))
-      failUsage(fmt::format("--devices {}: no such device; {} would be right", name, deviceForms()));
+      failUsage(fmt::format("--devices {}: no such device; {} would be right", name, devices::deviceForms()));
     if (std::ranges::find(sweep.devices, name) != sweep.devices.end())
       failUsage(fmt::format("--devices {}: is there twice; once would be right", name));
     sweep.devices.push_back(name);

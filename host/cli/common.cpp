@@ -147,8 +147,9 @@ void addQuiet(CLI::App& app, bool& quiet) {
 }
 
 void addDevice(CLI::App& app, Options& options, bool many) {
-  auto* const option =
-      app.add_option("--device", options.devices, deviceForms(true))->type_name("DEVICE")->allow_extra_args(false);
+  auto* const option = app.add_option("--device", options.devices, devices::deviceForms(true))
+                           ->type_name("DEVICE")
+                           ->allow_extra_args(false);
   if (!many) option->expected(1);
 }
 
@@ -215,12 +216,12 @@ Scene sceneOf(const Options& options) {
 }
 
 std::string deviceName(const Options& options) {
-  return options.devices.empty() ? defaultDevice() : options.devices.front();
+  return options.devices.empty() ? devices::defaultDevice() : options.devices.front();
 }
 
 std::unique_ptr<Device> deviceOf(const Options& options) {
   const std::string name = deviceName(options);
-  if (options.threads != 0 && !kindOf(name).takesThreads) {
+  if (options.threads != 0 && !devices::kindOf(name).takesThreads) {
     std::vector<std::string> titles, names;
     for (const DeviceKind& kind : deviceKinds())
       if (kind.takesThreads) titles.push_back(kind.title), names.push_back(kind.name);

@@ -41,7 +41,8 @@ Candidates devices(const std::string& word) {
   for (const DeviceKind& kind : deviceKinds()) all.push_back({before + kind.name, kind.meaning});
   for (const DeviceKind& kind : deviceKinds())
     for (const FoundDevice& device : kind.find().devices)
-      if (device.whyNot.empty() && !device.select.empty()) all.push_back({before + nameOf(kind, device), device.name});
+      if (device.whyNot.empty() && !device.select.empty())
+        all.push_back({before + devices::nameOf(kind, device), device.name});
   return all;
 }
 

@@ -101,7 +101,7 @@ ExitCode runDevices(const DevicesOptions& options) {
   Rows rows{
       {"device", "name", "driver", "int64", "atomic64", "buffer", "group memory", "loop", "groups", "clock", "probe"}};
   std::string notes;
-  const auto names = presentDevices();
+  const auto names = devices::presentDevices();
   {
     support::Progress progress("devices", names.size());
     for (std::size_t i = 0; i < names.size(); ++i) {
@@ -114,7 +114,7 @@ ExitCode runDevices(const DevicesOptions& options) {
     const FoundDevices found = kind.find();
     for (const FoundDevice& device : found.devices)
       if (!device.whyNot.empty()) {
-        const std::string name = nameOf(kind, device);
+        const std::string name = devices::nameOf(kind, device);
         json["unusable"].push_back(
             {{"device", name}, {"name", device.name}, {"driver", device.driver}, {"why", device.whyNot}});
         notes += fmt::format("{} {} ({}): cannot be used: {}\n", name, device.name, device.driver, device.whyNot);

@@ -68,7 +68,7 @@ std::string jobsTable(const Sweep& sweep, const std::vector<SweepPoint>& cells, 
     std::size_t refused = 0;
     for (const std::size_t number : job.cells) {
       const unsigned count = cells[number].threads;
-      threads.insert(!takesThreads(job.device) ? "-" : count == 0 ? "all" : std::to_string(count));
+      threads.insert(!devices::takesThreads(job.device) ? "-" : count == 0 ? "all" : std::to_string(count));
       refused += survey.cells[number].refused.has_value();
     }
     std::vector<std::string> sizes;

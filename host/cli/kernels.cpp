@@ -118,7 +118,7 @@ ExitCode runKernels(const KernelsOptions& options) {
   if (!options.input.empty() || !options.settings.empty())
     failUsage("kernels --prebuild: takes neither INPUT nor --set; --emit does");
   std::vector<Plan> plans;
-  for (const auto& name : options.devices.empty() ? presentDevices() : options.devices) {
+  for (const auto& name : options.devices.empty() ? devices::presentDevices() : options.devices) {
     const auto device = openDevice(name);
     for (auto& plan : defaultPlans(device->info())) plans.push_back(std::move(plan));
   }

@@ -177,7 +177,7 @@ Manifest manifestOf(const Scene& scene, const Variant& asked, const Plan& plan, 
   json["counters"] = Json::array();  // of 64 bits, the low word first
   for (std::size_t i = 0; i < kernelCounterCount(); ++i) json["counters"].push_back(counterDocs()[i].name);
   try {
-    const auto device = openDevice(defaultDevice());
+    const auto device = openDevice(devices::defaultDevice());
     DeviceInfo as = target.device;
     as.routes = device->info().routes;
     Recorder recorder(*device, as);

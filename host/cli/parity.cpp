@@ -36,8 +36,8 @@ struct ParityOptions : Options {
 std::vector<Attempt> listAttempts(const ParityOptions& options) {
   const Variant variant = variantOf(options);
   std::vector<Attempt> attempts;
-  for (const auto& device : options.devices.empty() ? presentDevices() : options.devices)
-    for (const std::string& route : kindOf(device).routes) {
+  for (const auto& device : options.devices.empty() ? devices::presentDevices() : options.devices)
+    for (const std::string& route : devices::kindOf(device).routes) {
       if (variant.get("route", route) != route) continue;
       attempts.push_back({device, route, variant});
       attempts.back().variant.set("route", route);
@@ -65,8 +65,8 @@ class Parity {
     if (options.devices.empty()) {
       for (const DeviceKind& kind : deviceKinds())
         for (const auto& note : kind.find().notes) support::say(stderr, "{}: {}\n", kind.name, note);
-      if (devices_.size() == 1 && devices_.contains(defaultDevice()))
-        support::say(stderr, "the {} alone is compared\n", kindOf(defaultDevice()).title);
+      if (devices_.size() == 1 && devices_.contains(devices::defaultDevice()))
+        support::say(stderr, "the {} alone is compared\n", devices::kindOf(devices::defaultDevice()).title);
     }
     scene_ = sceneOf(options);
   }
@@ -135,7 +135,7 @@ class Parity {
     Run& run = outcome.run;
     run = beginRun(scene_, attempt.variant, device, kernels_);
     try {
-      outcome.probe = probeDevice(device, kernels_, routeOf(run.device, attempt.variant));
+      outcome.probe = probeDevice(device, kernels_, devices::routeOf(run.device, attempt.variant));
       Rasterizer rasterizer(device, kernels_);
       const Framebuffer image = measureRun(run, rasterizer, kernels_, options_.repeat).image;
       run.peakBufferBytes = device.peakBufferBytes();

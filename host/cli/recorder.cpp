@@ -36,7 +36,7 @@ std::unique_ptr<Buffer> Recorder::createBuffer(std::size_t bytes, std::string_vi
   const auto before = std::ranges::count(buffers_, name, &BufferEntry::pipeline);
   std::string unique = before == 0 ? std::string(name) : fmt::format("{} {}", name, before + 1);
   buffers_.push_back({unique, std::string(name), bytes});
-  return std::make_unique<RecordedBuffer>(ForwardingDevice::createBuffer(bytes, name), std::move(unique));
+  return std::make_unique<RecordedBuffer>(devices::ForwardingDevice::createBuffer(bytes, name), std::move(unique));
 }
 
 void Recorder::write(Buffer& buffer, std::size_t offset, std::span<const std::byte> data) {
@@ -47,18 +47,18 @@ void Recorder::write(Buffer& buffer, std::size_t offset, std::span<const std::by
   for (int again = 2; files_.contains(file); ++again) file = fmt::format("{}-write-{}.bin", stem, again);
   files_[file].assign(data.begin(), data.end());
   commands_.push_back({{"do", "write"}, {"buffer", name}, {"offset", offset}, {"bytes", data.size()}, {"file", file}});
-  ForwardingDevice::write(*static_cast<RecordedBuffer&>(buffer).runs, offset, data);
+  devices::ForwardingDevice::write(*static_cast<RecordedBuffer&>(buffer).runs, offset, data);
 }
 
 void Recorder::read(const Buffer& buffer, std::size_t offset, std::span<std::byte> data) {
   commands_.push_back({{"do", "read"}, {"buffer", recorded(buffer).name}, {"offset", offset}, {"bytes", data.size()}});
-  ForwardingDevice::read(*recorded(buffer).runs, offset, data);
+  devices::ForwardingDevice::read(*recorded(buffer).runs, offset, data);
 }
 
 void Recorder::fill(Buffer& buffer, std::size_t offset, std::size_t bytes, std::uint32_t value) {
   commands_.push_back(
       {{"do", "fill"}, {"buffer", recorded(buffer).name}, {"offset", offset}, {"bytes", bytes}, {"word", value}});
-  ForwardingDevice::fill(*static_cast<RecordedBuffer&>(buffer).runs, offset, bytes, value);
+  devices::ForwardingDevice::fill(*static_cast<RecordedBuffer&>(buffer).runs, offset, bytes, value);
 }
 
 void Recorder::dispatch(const Kernel& kernel, std::span<const Binding> bindings, std::span<const std::byte> block,
@@ -77,7 +77,7 @@ void Recorder::dispatch(const Kernel& kernel, std::span<const Binding> bindings,
                          {"groups", {across, down, 1}},
                          {"buffers", std::move(bound)},
                          {"uniforms", std::move(uniforms)}});
-  ForwardingDevice::dispatch(kernel, inner, block, groups);
+  devices::ForwardingDevice::dispatch(kernel, inner, block, groups);
 }
 
 }  // namespace tessera::cli

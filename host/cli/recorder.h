@@ -11,10 +11,10 @@
 
 namespace tessera::cli {
 
-class Recorder final : public ForwardingDevice {
+class Recorder final : public devices::ForwardingDevice {
  public:
   /// Runs on `runs`; plans are made for `as`.
-  Recorder(Device& runs, DeviceInfo as) : ForwardingDevice(runs, std::move(as)) {}
+  Recorder(Device& runs, DeviceInfo as) : devices::ForwardingDevice(runs, std::move(as)) {}
 
   std::unique_ptr<Buffer> createBuffer(std::size_t bytes, std::string_view name) override;
   void write(Buffer& buffer, std::size_t offset, std::span<const std::byte> data) override;

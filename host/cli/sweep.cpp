@@ -19,10 +19,11 @@ void addChanges(CLI::App& app, harness::Changes& changes) {
          "--devices",
          [&changes](const std::string& typed) {
            if (!typed.empty())
-             changes.devices = partsOf(typed, "--devices",
-                                       fmt::format("{}", fmt::join(kindNames(), ",")));  // else it is refused later
+             changes.devices =
+                 partsOf(typed, "--devices",
+                         fmt::format("{}", fmt::join(devices::kindNames(), ",")));  // else it is refused later
          },
-         deviceForms() + ", with commas between, in place of the file's")
+         devices::deviceForms() + ", with commas between, in place of the file's")
       ->type_name("DEVICE,...");
 }
 

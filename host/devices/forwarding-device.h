@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace tessera {
+namespace tessera::devices {
 
 /// Forwards every call but borrow(): the caller copies its memory, so that a derived class sees each byte in write().
 /// What info() says is the derived class' own.
@@ -52,4 +52,4 @@ class ForwardingDevice : public Device {
   DeviceInfo info_;
 };
 
-}  // namespace tessera
+}  // namespace tessera::devices

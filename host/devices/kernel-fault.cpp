@@ -8,7 +8,7 @@
 #include <csignal>
 #include <cstring>
 
-namespace tessera {
+namespace tessera::devices {
 namespace {
 
 std::atomic<const char*> running{nullptr};
@@ -56,4 +56,4 @@ RunningKernel::RunningKernel(const char* description) { running = description; }
 RunningKernel::~RunningKernel() { running = nullptr; }
 const char* runningKernel() { return running; }
 
-}  // namespace tessera
+}  // namespace tessera::devices

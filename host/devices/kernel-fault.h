@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <string>
 
-namespace tessera {
+namespace tessera::devices {
 
 /// As messages call it: "kernel shade (mine.slang)", or of one of ours "cpu: kernel shade".
 std::string describe(const CompiledKernel& kernel, const std::string& api);
@@ -32,4 +32,4 @@ class RunningKernel {
 /// That kernel; null: none.
 const char* runningKernel();
 
-}  // namespace tessera
+}  // namespace tessera::devices

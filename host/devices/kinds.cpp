@@ -14,7 +14,7 @@ namespace {
 
 /// The list of kinds. A function's, so that it is there for programs that register kinds before main() begins.
 std::deque<DeviceKind>& kinds() {
-  static std::deque<DeviceKind> list{cpuKind(), vulkanKind()};
+  static std::deque<DeviceKind> list{devices::cpuKind(), devices::vulkanKind()};
   return list;
 }
 

@@ -3,9 +3,9 @@
 
 #include <tessera/device-kind.h>
 
-namespace tessera {
+namespace tessera::devices {
 
 DeviceKind cpuKind();     ///< host/devices/cpu
 DeviceKind vulkanKind();  ///< host/devices/vulkan
 
-}  // namespace tessera
+}  // namespace tessera::devices

@@ -24,7 +24,7 @@ std::string selectOf(const DeviceKind& kind, std::string_view name) {
   std::string part;
   for (const DeviceKind& kind : deviceKinds())
     for (const FoundDevice& device : kind.find().devices) {
-      names.push_back(nameOf(kind, device));
+      names.push_back(devices::nameOf(kind, device));
       known.push_back(device.select.empty() ? names.back() : fmt::format("{} ({})", names.back(), device.name));
       if (!kind.nickname.empty() && support::lowerCase(name) == kind.nickname) part = kind.name;
       if (kind.selects && !name.empty() &&
@@ -38,6 +38,8 @@ std::string selectOf(const DeviceKind& kind, std::string_view name) {
 }
 
 }  // namespace
+
+namespace devices {
 
 std::string nameOf(const DeviceKind& kind, const FoundDevice& device) {
   return device.select.empty() ? kind.name : fmt::format("{}:{}", kind.name, device.select);
@@ -60,8 +62,10 @@ bool takesThreads(std::string_view name) {
   return kind != nullptr && kind->takesThreads;
 }
 
+}  // namespace devices
+
 std::unique_ptr<Device> openDevice(const std::string& name, const DeviceOptions& options) {
-  const DeviceKind& kind = kindOf(name);
+  const DeviceKind& kind = devices::kindOf(name);
   DeviceOptions all = options;
 #ifdef TESSERA_VALIDATION
   all.validation = true;
@@ -74,6 +78,8 @@ std::unique_ptr<Device> openDevice(const std::string& name, const DeviceOptions&
                      fmt::join(info.routes, ", "), kind.name, fmt::join(kind.routes, ", ")));
   return device;
 }
+
+namespace devices {
 
 std::string defaultDevice() { return deviceKinds().front().name; }
 
@@ -103,5 +109,7 @@ Route routeOf(const DeviceInfo& device, const Variant& variant) {
   const std::string asked = variant.get("route");
   return axes::routeNamed(std::ranges::count(device.routes, asked) > 0 ? asked : device.routes.front()).route;
 }
+
+}  // namespace devices
 
 }  // namespace tessera

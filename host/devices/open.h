@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace tessera {
+namespace tessera::devices {
 
 /// The kind of the device of that name, whether or not there is such a device here; null: no kind has such names.
 const DeviceKind* findKind(std::string_view name);
@@ -34,4 +34,4 @@ std::vector<std::string> kindNames();
 /// device's default route.
 Route routeOf(const DeviceInfo& device, const Variant& variant);
 
-}  // namespace tessera
+}  // namespace tessera::devices

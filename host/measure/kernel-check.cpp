@@ -57,7 +57,7 @@ class Patience {
       : thread_([this](std::stop_token) {
           std::unique_lock lock(mutex_);
           if (done_.wait_for(lock, kPatience, [&] { return ended_; })) return;
-          const char* const kernel = runningKernel();
+          const char* const kernel = devices::runningKernel();
           support::say(stderr, "{} runs since {} s, with bounds checks; Ctrl-C stops it\n",
                        kernel != nullptr ? kernel : "the checked frame", kPatience.count());
         }) {}
@@ -137,7 +137,7 @@ KernelCheck::KernelCheck(const Scene& scene, const KernelFiles& files, const std
   if (const auto [kind, route] = compiledChecks(); kind != nullptr)
     add([&] { state_->addCompiled(kind->name, route, runs.front().variant, files); });
   for (const KernelRun& run : runs)
-    if (kindOf(run.device).checksBounds) add([&] { state_->addChecking(run, files); });
+    if (devices::kindOf(run.device).checksBounds) add([&] { state_->addChecking(run, files); });
 }
 
 KernelCheck::~KernelCheck() = default;
@@ -148,7 +148,7 @@ void KernelCheck::run(const std::function<void(const std::function<void()>&)>& f
 
 void checkUserKernels(const Scene& scene, const KernelFiles& files, const std::vector<KernelRun>& runs) {
   if (files.empty()) return;
-  sayKernelFaults();
+  devices::sayKernelFaults();
   KernelCheck(scene, files, runs).run([](const auto& render) { render(); });
 }
 

@@ -33,22 +33,22 @@ DeviceInfo taking(std::vector<std::string> routes) {
 }  // namespace
 
 TEST_CASE("A kind that a program registers is listed and opened by its name") {
-  CHECK(findKind("mirror") == nullptr);
+  CHECK(devices::findKind("mirror") == nullptr);
   const auto log = std::make_shared<MirrorLog>();
   registerDevice(mirrorKind(log));
   CHECK(deviceKinds().back().name == "mirror");
-  CHECK(deviceKinds().front().name == defaultDevice());
-  CHECK(std::ranges::count(presentDevices(), "mirror") == 1);
-  CHECK(kindNames() == std::vector<std::string>{"cpu", "vulkan", "mirror"});
-  CHECK(deviceForms() == "cpu, vulkan, mirror, vulkan:N or vulkan:NAME");
-  CHECK(takesThreads("mirror"));
-  CHECK(findKind("mirror:0") == nullptr);
+  CHECK(deviceKinds().front().name == devices::defaultDevice());
+  CHECK(std::ranges::count(devices::presentDevices(), "mirror") == 1);
+  CHECK(devices::kindNames() == std::vector<std::string>{"cpu", "vulkan", "mirror"});
+  CHECK(devices::deviceForms() == "cpu, vulkan, mirror, vulkan:N or vulkan:NAME");
+  CHECK(devices::takesThreads("mirror"));
+  CHECK(devices::findKind("mirror:0") == nullptr);
 
   const auto device = openDevice("mirror", {.threads = 2});
   CHECK(device->info().api == "mirror");
   CHECK(device->info().threads == 2);
   CHECK(log->opened == std::vector<std::string>{", 2 threads"});
-  CHECK(routeOf(device->info(), {}) == Route::kCpp);
+  CHECK(devices::routeOf(device->info(), {}) == Route::kCpp);
   CHECK(contains(lineOf(ExitCode::kUsage, [] { openDevice("miror"); }), "did you mean mirror?"));
   CHECK(contains(lineOf(ExitCode::kUsage, [] { openDevice("looking-glass"); }), "did you mean mirror?"));
 }
@@ -110,9 +110,9 @@ TEST_CASE("The plan takes the first route of a device and refuses those that the
   CHECK(routeOn(taking({"spirv", "glsl"}), {}) == "spirv");
   CHECK(routeOn(taking({"glsl", "spirv"}), {}) == "glsl");
   CHECK(routeOn(taking({"glsl", "spirv"}), {{"route", "spirv"}}) == "spirv");
-  CHECK(routeOf(taking({"glsl", "spirv"}), {}) == Route::kGlsl);
-  CHECK(routeOf(taking({"glsl", "spirv"}), {{"route", "spirv"}}) == Route::kSpirv);
-  CHECK(routeOf(taking({"spirv"}), {{"route", "glsl"}}) == Route::kSpirv);
+  CHECK(devices::routeOf(taking({"glsl", "spirv"}), {}) == Route::kGlsl);
+  CHECK(devices::routeOf(taking({"glsl", "spirv"}), {{"route", "spirv"}}) == Route::kSpirv);
+  CHECK(devices::routeOf(taking({"spirv"}), {{"route", "glsl"}}) == Route::kSpirv);
   CHECK(contains(lineOf(ExitCode::kUnsupported,
                         [&] {
                           routeOn(taking({"spirv"}), {{"route", "glsl"}});

@@ -8,26 +8,26 @@
 namespace tessera::test {
 namespace {
 
-class MirrorDevice final : public ForwardingDevice {
+class MirrorDevice final : public devices::ForwardingDevice {
  public:
   MirrorDevice(std::unique_ptr<Device> inner, std::shared_ptr<MirrorLog> log, const std::string& kind)
-      : ForwardingDevice(std::move(inner)), log_(std::move(log)) {
+      : devices::ForwardingDevice(std::move(inner)), log_(std::move(log)) {
     info_.api = kind;
     info_.name = "Mirror of " + info_.name;
   }
 
   std::unique_ptr<Buffer> createBuffer(std::size_t bytes, std::string_view name) override {
     ++log_->buffers;
-    return ForwardingDevice::createBuffer(bytes, name);
+    return devices::ForwardingDevice::createBuffer(bytes, name);
   }
   std::unique_ptr<Kernel> createKernel(const CompiledKernel& kernel) override {
     log_->kernels.push_back(kernel.stage);
-    return ForwardingDevice::createKernel(kernel);
+    return devices::ForwardingDevice::createKernel(kernel);
   }
   void dispatch(const Kernel& kernel, std::span<const Binding> bindings, std::span<const std::byte> block,
                 std::uint32_t groups) override {
     ++log_->dispatches[kernel.compiled().stage];
-    ForwardingDevice::dispatch(kernel, bindings, block, groups);
+    devices::ForwardingDevice::dispatch(kernel, bindings, block, groups);
   }
 
  private:

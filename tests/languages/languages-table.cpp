@@ -59,7 +59,7 @@ std::string judgedBy(std::vector<std::string> command, const std::string& bytes,
 
 /// A module without OpSource, whose number for Slang Debian 12's spirv-val does not know.
 std::string judgeSpirv(const fs::path& module) {
-  const std::vector<std::uint32_t> words = vulkan::readModule(module).words;
+  const std::vector<std::uint32_t> words = devices::vulkan::readModule(module).words;
   return judgedBy({"spirv-val", "--target-env", "vulkan1.2"},
                   {reinterpret_cast<const char*>(words.data()), 4 * words.size()}, "module.spv");
 }

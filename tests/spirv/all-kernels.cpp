@@ -104,7 +104,7 @@ std::vector<std::string> findings(KernelCache& cache, const std::vector<KernelRe
     };
     for (const std::string& violation : checkSpirv(compiled[i].binary)) report(violation);
     // Without OpSource, whose language number for Slang Debian 12's spirv-val does not know.
-    const std::vector<std::uint32_t> words = vulkan::readModule(compiled[i].binary).words;
+    const std::vector<std::uint32_t> words = devices::vulkan::readModule(compiled[i].binary).words;
     if (const std::string said = spirvVal(words); !said.empty()) report(said);
     const std::vector<std::uint32_t> checked = kernels::addBoundsChecks(words, compiled[i].interface.resources).words;
     if (const std::string said = spirvVal(checked); !said.empty()) report("with bounds checks: " + said);

@@ -8,10 +8,10 @@
 namespace tessera {
 namespace {
 
-class CutDevice final : public ForwardingDevice {
+class CutDevice final : public devices::ForwardingDevice {
  public:
   CutDevice(std::unique_ptr<Device> inner, std::uint64_t bytes, std::uint32_t iterations)
-      : ForwardingDevice(std::move(inner)) {
+      : devices::ForwardingDevice(std::move(inner)) {
     if (bytes != 0) info_.maxBufferBytes = bytes;
     if (iterations != 0) info_.maxLoopIterations = iterations;
   }
@@ -19,7 +19,7 @@ class CutDevice final : public ForwardingDevice {
   std::unique_ptr<Buffer> createBuffer(std::size_t bytes, std::string_view name) override {
     if (bytes > info_.maxBufferBytes)
       failUnsupported(fmt::format("buffer {}: {} bytes, the largest has {}", name, bytes, info_.maxBufferBytes));
-    return ForwardingDevice::createBuffer(bytes, name);
+    return devices::ForwardingDevice::createBuffer(bytes, name);
   }
 };
 

@@ -93,7 +93,8 @@ using Entry = void (*)(GroupRange*, void* entryPointParams, void* globalParams);
 
 class CpuKernel final : public Kernel {
  public:
-  explicit CpuKernel(const CompiledKernel& compiled) : compiled_(compiled), description_(describe(compiled, "cpu")) {
+  explicit CpuKernel(const CompiledKernel& compiled)
+      : compiled_(compiled), description_(devices::describe(compiled, "cpu")) {
     if (compiled.route != Route::kCpp) fail(fmt::format("cpu: kernel {} was not compiled for a CPU", compiled.stage));
     library_ = dlopen(compiled.binary.c_str(), RTLD_NOW | RTLD_LOCAL);
     if (library_ == nullptr) fail(fmt::format("cpu: kernel {} cannot be loaded: {}", compiled.stage, dlerror()));
@@ -155,8 +156,9 @@ class CpuDevice final : public Device {
  public:
   explicit CpuDevice(const CpuOptions& options)
       : shuffleSeed_(options.shuffleSeed),
-        crew_(options.plainThreads || kPlainThreads ? makePlainCrew(options.threads) : makeTbbCrew(options.threads)) {
-    const DeviceKind kind = cpuKind();
+        crew_(options.plainThreads || kPlainThreads ? devices::cpu::makePlainCrew(options.threads)
+                                                    : devices::cpu::makeTbbCrew(options.threads)) {
+    const DeviceKind kind = devices::cpuKind();
     info_.api = kind.name;
     info_.routes = kind.routes;
     info_.name = support::processorName();
@@ -192,10 +194,10 @@ class CpuDevice final : public Device {
     refuseBorrowed(buffer);
     auto* words = reinterpret_cast<std::uint32_t*>(slice(buffer, offset, bytes, "fill"));
     const std::size_t count = bytes / 4, piece = kFillPiece / 4;
-    spread(*crew_, static_cast<std::uint32_t>((count + piece - 1) / piece),
-           [&](std::uint32_t begin, std::uint32_t end) {
-             std::fill(words + begin * piece, words + std::min(count, end * piece), value);
-           });
+    devices::cpu::spread(*crew_, static_cast<std::uint32_t>((count + piece - 1) / piece),
+                         [&](std::uint32_t begin, std::uint32_t end) {
+                           std::fill(words + begin * piece, words + std::min(count, end * piece), value);
+                         });
   }
 
   void dispatch(const Kernel& kernel, std::span<const Binding> bindings, std::span<const std::byte> block,
@@ -207,9 +209,10 @@ class CpuDevice final : public Device {
     fillGlobals(cpu->compiled(), bindings, block, globals, frame);
     const std::uint64_t begin = nowNs();
     try {
-      const RunningKernel running(cpu->description());
+      const devices::RunningKernel running(cpu->description());
       if (shuffleSeed_ == 0)
-        spread(*crew_, groups, [&](std::uint32_t first, std::uint32_t last) { cpu->run(first, last, globals); });
+        devices::cpu::spread(*crew_, groups,
+                             [&](std::uint32_t first, std::uint32_t last) { cpu->run(first, last, globals); });
       else
         runShuffled(*cpu, groups, globals);
     } catch (const std::out_of_range& error) {  // Slang's bounds checks, where they are compiled in
@@ -236,7 +239,7 @@ class CpuDevice final : public Device {
     });
     const std::string what =
         holder == bindings.end() ? std::string("an array in it") : fmt::format("`{}`", holder->name);
-    failOutOfBounds(kernel.compiled(), "cpu", index, count, what);
+    devices::failOutOfBounds(kernel.compiled(), "cpu", index, count, what);
   }
 
   /// The struct of globals: a pointer to the block, and a pointer and an element count for each structured buffer.
@@ -278,14 +281,14 @@ class CpuDevice final : public Device {
     std::iota(order.begin(), order.end(), 0u);
     std::mt19937_64 random(shuffleSeed_ + 0x9e3779b97f4a7c15u * ++dispatches_);
     for (std::uint32_t i = groups; i > 1; --i) std::swap(order[i - 1], order[random() % i]);
-    spread(*crew_, groups, [&](std::uint32_t first, std::uint32_t last) {
+    devices::cpu::spread(*crew_, groups, [&](std::uint32_t first, std::uint32_t last) {
       for (std::uint32_t i = first; i < last; ++i) kernel.run(order[i], order[i] + 1, globals);
     });
   }
 
   DeviceInfo info_;
   std::uint64_t shuffleSeed_, dispatches_ = 0;
-  std::unique_ptr<Crew> crew_;
+  std::unique_ptr<devices::cpu::Crew> crew_;
   std::shared_ptr<Ledger> ledger_ = std::make_shared<Ledger>();
   std::vector<StageTime> times_;
 };

@@ -3,7 +3,9 @@
 #include "host/devices/kinds.h"
 #include "host/support/machine.h"
 
-tessera::DeviceKind tessera::cpuKind() {
+namespace tessera::devices {
+
+DeviceKind cpuKind() {
   return {.name = "cpu",
           .title = "CPU",
           .meaning = "every core",
@@ -12,9 +14,11 @@ tessera::DeviceKind tessera::cpuKind() {
           .find =
               [] {
                 return FoundDevices{
-                    .devices = {{.select = "", .name = tessera::support::processorName(), .driver = "", .whyNot = ""}},
+                    .devices = {{.select = "", .name = support::processorName(), .driver = "", .whyNot = ""}},
                     .notes = {}};
               },
           .open = [](const std::string&,
                      const DeviceOptions& options) { return makeCpuDevice({.threads = options.threads}); }};
 }
+
+}  // namespace tessera::devices

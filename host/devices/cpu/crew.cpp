@@ -18,7 +18,7 @@
 #include <thread>
 #include <vector>
 
-namespace tessera {
+namespace tessera::devices::cpu {
 namespace {
 
 /// Rows say how many threads a frame had, so fewer than asked for are an error.
@@ -174,4 +174,4 @@ void spread(Crew& crew, std::uint32_t count, const std::function<void(std::uint3
   if (failure) std::rethrow_exception(failure);
 }
 
-}  // namespace tessera
+}  // namespace tessera::devices::cpu

@@ -5,7 +5,7 @@
 #include <functional>
 #include <memory>
 
-namespace tessera {
+namespace tessera::devices::cpu {
 
 /// Calls `work` on up to `threads` threads at once, the caller among them, and waits for all. `work` must be whole on
 /// any number of calls: threads that come late find nothing left. It must not throw.
@@ -27,4 +27,4 @@ std::unique_ptr<Crew> makePlainCrew(unsigned threads);
 /// much. The first exception of a body stops the hand-out and is thrown again here.
 void spread(Crew& crew, std::uint32_t count, const std::function<void(std::uint32_t, std::uint32_t)>& body);
 
-}  // namespace tessera
+}  // namespace tessera::devices::cpu

@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <set>
 
-namespace tessera::vulkan {
+namespace tessera::devices::vulkan {
 namespace {
 
 namespace fs = std::filesystem;
@@ -119,4 +119,4 @@ std::string driverFailure(std::string_view what, const std::vector<std::string>&
                      package);
 }
 
-}  // namespace tessera::vulkan
+}  // namespace tessera::devices::vulkan

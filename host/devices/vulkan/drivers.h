@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-namespace tessera::vulkan {
+namespace tessera::devices::vulkan {
 
 enum class About { kDrivers, kLayers };
 
@@ -25,4 +25,4 @@ std::string driverFailure(std::string_view what, const std::vector<std::string>&
 /// The variable by which tessera adds a driver of its own is tessera's, not the user's.
 void ownVariable(std::string_view name);
 
-}  // namespace tessera::vulkan
+}  // namespace tessera::devices::vulkan

@@ -5,7 +5,7 @@
 
 #include "host/devices/kernel-fault.h"
 
-namespace tessera::vulkan {
+namespace tessera::devices::vulkan {
 namespace {
 
 constexpr std::uint64_t kMostBuffers = 1024;  // a device binds some tens
@@ -41,4 +41,4 @@ void FaultRecord::judge(const VulkanKernel& kernel) const {
   failOutOfBounds(kernel.compiled(), "vulkan", index, words()[kernels::kFaultCount], access.what);
 }
 
-}  // namespace tessera::vulkan
+}  // namespace tessera::devices::vulkan

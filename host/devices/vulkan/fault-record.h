@@ -7,7 +7,7 @@
 
 #include "host/devices/vulkan/recording.h"
 
-namespace tessera::vulkan {
+namespace tessera::devices::vulkan {
 
 class FaultRecord {
  public:
@@ -24,4 +24,4 @@ class FaultRecord {
   std::shared_ptr<Block> block_;
 };
 
-}  // namespace tessera::vulkan
+}  // namespace tessera::devices::vulkan

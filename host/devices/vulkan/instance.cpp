@@ -15,7 +15,7 @@
 #include "host/devices/vulkan/drivers.h"
 #include "host/support/terminal.h"
 
-namespace tessera::vulkan {
+namespace tessera::devices::vulkan {
 namespace {
 
 constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
@@ -216,21 +216,21 @@ Adapter selectAdapter(std::vector<Adapter> adapters, const std::string& select,
   return std::move(*chosen);
 }
 
-}  // namespace tessera::vulkan
+}  // namespace tessera::devices::vulkan
 
 namespace tessera {
 
 VulkanAdapters listVulkanAdapters() try {
   VulkanAdapters found;
-  const vulkan::Instance instance(false, {});
+  const devices::vulkan::Instance instance(false, {});
   auto& list = found.adapters;
   for (const auto& adapter : instance.adapters())
     list.push_back({static_cast<unsigned>(list.size()), adapter.name(), adapter.driverText(), adapter.apiVersionText(),
                     adapter.whyNot});
   if (list.empty())
-    found.notes = {vulkan::driverFailure("no Vulkan device: no driver found one", instance.complaints())};
+    found.notes = {devices::vulkan::driverFailure("no Vulkan device: no driver found one", instance.complaints())};
   else
-    found.notes = vulkan::withMissingFiles(instance.complaints());
+    found.notes = devices::vulkan::withMissingFiles(instance.complaints());
   return found;
 } catch (const Error& error) {
   return {{}, {error.what()}};

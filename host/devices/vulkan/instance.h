@@ -10,7 +10,7 @@
 #include <vector>
 #include <vulkan/vulkan_raii.hpp>
 
-namespace tessera::vulkan {
+namespace tessera::devices::vulkan {
 
 constexpr std::uint32_t kApiVersion = VK_API_VERSION_1_2;
 
@@ -66,4 +66,4 @@ auto translated(const std::string& what, Work&& work) {
   }
 }
 
-}  // namespace tessera::vulkan
+}  // namespace tessera::devices::vulkan

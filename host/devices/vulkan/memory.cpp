@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace tessera::vulkan {
+namespace tessera::devices::vulkan {
 namespace {
 
 vk::raii::Device makeDevice(const Adapter& adapter) {
@@ -70,4 +70,4 @@ Block::Block(std::shared_ptr<Machine> machine, std::uint64_t bytes, vk::BufferUs
 
 Block::~Block() { machine_->heldBytes -= bytes_; }
 
-}  // namespace tessera::vulkan
+}  // namespace tessera::devices::vulkan

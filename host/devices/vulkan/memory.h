@@ -8,7 +8,7 @@
 
 #include "host/devices/vulkan/instance.h"
 
-namespace tessera::vulkan {
+namespace tessera::devices::vulkan {
 
 /// What buffers, kernels and the device share; whichever goes last takes it down.
 struct Machine {
@@ -49,4 +49,4 @@ class Block {
   std::byte* mapped_ = nullptr;
 };
 
-}  // namespace tessera::vulkan
+}  // namespace tessera::devices::vulkan

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <utility>
 
-namespace tessera::vulkan {
+namespace tessera::devices::vulkan {
 namespace {
 
 // What one submission holds at most; beyond it the recording runs by itself.
@@ -168,4 +168,4 @@ void Recording::readTimestamps() {
 
 std::vector<StageTime> Recording::takeTimes() { return std::exchange(times_, {}); }
 
-}  // namespace tessera::vulkan
+}  // namespace tessera::devices::vulkan

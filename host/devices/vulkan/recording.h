@@ -7,7 +7,7 @@
 
 #include "host/devices/vulkan/vulkan-kernel.h"
 
-namespace tessera::vulkan {
+namespace tessera::devices::vulkan {
 
 /// A buffer as a kernel sees it: no larger than it was asked for, whatever its block holds.
 struct BoundBuffer {
@@ -56,4 +56,4 @@ class Recording {
   std::uint64_t firstTick_ = 0;
 };
 
-}  // namespace tessera::vulkan
+}  // namespace tessera::devices::vulkan

@@ -10,7 +10,7 @@
 
 #include "host/kernels/spirv.h"
 
-namespace tessera::vulkan {
+namespace tessera::devices::vulkan {
 namespace {
 
 constexpr std::size_t kHeaderWords = 5;
@@ -83,4 +83,4 @@ SpirvModule readModule(const std::filesystem::path& path) {
   return module;
 }
 
-}  // namespace tessera::vulkan
+}  // namespace tessera::devices::vulkan

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace tessera::vulkan {
+namespace tessera::devices::vulkan {
 
 struct SpirvModule {
   std::vector<std::uint32_t> words;         ///< without OpSource
@@ -20,4 +20,4 @@ struct SpirvModule {
 /// Throws kFailure with one line when the file is missing or is no SPIR-V module with one compute entry point.
 SpirvModule readModule(const std::filesystem::path& path);
 
-}  // namespace tessera::vulkan
+}  // namespace tessera::devices::vulkan

@@ -10,7 +10,7 @@
 #include "host/devices/vulkan/fault-record.h"
 #include "host/devices/vulkan/recording.h"
 
-namespace tessera::vulkan {
+namespace tessera::devices::vulkan {
 namespace {
 
 constexpr vk::DeviceSize kStagingBytes = 16u << 20;
@@ -207,8 +207,8 @@ class VulkanDevice : public Device {
 };
 
 }  // namespace
-}  // namespace tessera::vulkan
+}  // namespace tessera::devices::vulkan
 
 std::unique_ptr<tessera::Device> tessera::makeVulkanDevice(const VulkanOptions& options) {
-  return std::make_unique<vulkan::VulkanDevice>(options);
+  return std::make_unique<devices::vulkan::VulkanDevice>(options);
 }

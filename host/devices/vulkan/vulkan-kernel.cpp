@@ -9,7 +9,7 @@
 #include "host/devices/kernel-fault.h"
 #include "host/devices/vulkan/spirv-module.h"
 
-namespace tessera::vulkan {
+namespace tessera::devices::vulkan {
 namespace {
 
 constexpr std::string_view kBlockName = "frame";
@@ -106,4 +106,4 @@ void VulkanKernel::addChecks(std::vector<std::uint32_t>& words, const Adapter& a
   storage_.push_back({std::string(kFaultsName), checks_->binding});
 }
 
-}  // namespace tessera::vulkan
+}  // namespace tessera::devices::vulkan

@@ -10,7 +10,7 @@
 #include "host/devices/vulkan/memory.h"
 #include "host/kernels/spirv-bounds.h"
 
-namespace tessera::vulkan {
+namespace tessera::devices::vulkan {
 
 /// What storage() calls the device's FaultRecord.
 inline constexpr std::string_view kFaultsName;
@@ -56,4 +56,4 @@ struct VulkanKernel::Pipeline {
   vk::raii::Pipeline pipeline = nullptr;
 };
 
-}  // namespace tessera::vulkan
+}  // namespace tessera::devices::vulkan

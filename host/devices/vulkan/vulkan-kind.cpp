@@ -4,7 +4,7 @@
 
 #include "host/devices/kinds.h"
 
-namespace tessera {
+namespace tessera::devices {
 namespace {
 
 FoundDevices find() {
@@ -38,4 +38,4 @@ DeviceKind vulkanKind() {
           .open = open};
 }
 
-}  // namespace tessera
+}  // namespace tessera::devices
