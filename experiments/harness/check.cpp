@@ -27,7 +27,7 @@ constexpr std::size_t kOracleBytes = std::size_t{512} << 20;  // of images kept;
 
 void compile(const Scene& scene, const Variant& asked, const DeviceInfo& device, KernelCache& kernels) {
   for (const Variant& variant : {asked, axes::counting(asked)})
-    kernels.getAll(kernelRequests(makePlan(scene, variant, device), kernels.files()));
+    kernels.getAll(plan::kernelRequests(makePlan(scene, variant, device), kernels.files()));
 }
 
 /// Settings that do not go together, with each other or the scene, and a kernel of a stage that the plan leaves out are
@@ -36,12 +36,12 @@ Plan planOf(const Scene& scene, const Variant& asked, const DeviceInfo& device, 
   std::optional<Plan> plan;
   try {
     plan = makePlan(scene, asked, device);
-    checkStages(*plan, files);
+    plan::checkStages(*plan, files);
   } catch (const Error& error) {
     if (error.code() == ExitCode::kUsage) failUnsupported(error.what());
     throw;
   }
-  kernelRequests(*plan, files);
+  plan::kernelRequests(*plan, files);
   return std::move(*plan);
 }
 

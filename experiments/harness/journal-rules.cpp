@@ -35,7 +35,7 @@ Labels labelsOf(const Json& asked, const std::string& key) {
     labels[name] = value;
     if (!name.starts_with(kKernel))
       settings[name] = value;
-    else if (std::ranges::find(stages(), name.substr(kKernel.size()), &Stage::name) == stages().end())
+    else if (std::ranges::find(plan::stages(), name.substr(kKernel.size()), &plan::Stage::name) == plan::stages().end())
       failField(key + '.' + name, &value, "the kernel of one of the pipeline's stages");
   }
   checkAxes(settings, key);
@@ -196,7 +196,7 @@ void JournalRules::checkSample(const Json& line, const Json& row) const {
   for (const auto& [stage, ns] : stages.items()) {
     checkSchema(ns, "/$defs/nanoseconds", "stages." + stage);
     if (!kernels.contains(stage)) failField("stages." + stage, &ns, "a stage for which the cell's row has a kernel");
-    if (!isBehindVisibility(stage)) sum += ns.get<double>();
+    if (!plan::isBehindVisibility(stage)) sum += ns.get<double>();
   }
   // A device's own clock may let its stages overlap; there the whole is only no less than some time.
   const double least = row.value("clock", "") == "wall" ? sum : sum > 0 ? 1 : 0;

@@ -74,7 +74,7 @@ Survey survey(const Sweep& sweep, const std::vector<SweepPoint>& cells, KernelCa
       result.images = {imageText(plan.resolved)};
       if (!sweep.truth.values().empty()) result.images.insert(imageText(axes::joined(plan.resolved, sweep.truth)));
       for (const Plan& one : {plan, makePlan(*scene, axes::counting(cell.asked), opened.device->info())})
-        for (const KernelRequest& request : kernelRequests(one, cell.kernels))
+        for (const KernelRequest& request : plan::kernelRequests(one, cell.kernels))
           needed.try_emplace({request.stage, request.file, request.route, request.modules}, request);
     } catch (const Error& error) {
       if (error.code() != ExitCode::kUsage && error.code() != ExitCode::kUnsupported) throw;

@@ -247,9 +247,10 @@ std::string refusalOf(const TomlTable& table, const std::string& stage, const to
 std::vector<SweptKernel> readKernels(const TomlTable& table, const fs::path& folder, std::string& foreign) {
   std::vector<SweptKernel> kernels;
   for (const auto& [key, node] : table.entries()) {
-    if (std::ranges::find(stages(), key.str(), &Stage::name) == stages().end()) {
-      table.refuseKey(key, fmt::format("no such stage; {}",
-                                       support::whatThereIs(key.str(), support::namesOf(stages(), &Stage::name))));
+    if (std::ranges::find(plan::stages(), key.str(), &plan::Stage::name) == plan::stages().end()) {
+      table.refuseKey(
+          key, fmt::format("no such stage; {}",
+                           support::whatThereIs(key.str(), support::namesOf(plan::stages(), &plan::Stage::name))));
     }
     SweptKernel kernel{std::string(key.str()), {}, {}};
     for (const toml::node& element : *table.list(key.str(), "a list such as [\"\", \"mine.comp\"]")) {

@@ -77,7 +77,7 @@ class Worker {
           Plan plan = makePlan(scene, work ? axes::counting(cell.asked) : cell.asked, run.device);
           if (!work) run.variant = plan.resolved;
           if (!work) run.plan = plan.entries;
-          kernelRequests(plan, cell.kernels);
+          plan::kernelRequests(plan, cell.kernels);
           plans[cell.kernels].push_back(std::move(plan));
         }
       } catch (const Error& error) {  // the check says so

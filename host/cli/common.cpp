@@ -180,9 +180,9 @@ KernelFiles kernelFilesOf(const Options& options) {
     if (equals == std::string::npos) failUsage(fmt::format("--kernel {}: takes STAGE=FILE", text));
     const std::string stage = text.substr(0, equals);
     const fs::path file = text.substr(equals + 1);
-    if (std::ranges::find(stages(), stage, &Stage::name) == stages().end())
+    if (std::ranges::find(plan::stages(), stage, &plan::Stage::name) == plan::stages().end())
       failUsage(fmt::format("--kernel {}: no such stage; {}", text,
-                            support::whatThereIs(stage, support::namesOf(stages(), &Stage::name))));
+                            support::whatThereIs(stage, support::namesOf(plan::stages(), &plan::Stage::name))));
     if (const std::string why = support::whyNoFile(file); !why.empty())
       failUsage(fmt::format("--kernel {}: {}", text, why));
     kernels::languageOf(file);

@@ -79,7 +79,7 @@ Candidates inputs(const std::string& word) {
 Candidates kernelFiles(const std::string& word) {
   Candidates all;
   if (const std::string stage = upTo(word, "="); !stage.empty()) return {{":files " + stage, ""}};
-  for (const Stage& stage : stages()) all.push_back({stage.name + "=", stage.source});
+  for (const plan::Stage& stage : plan::stages()) all.push_back({stage.name + "=", stage.source});
   return all;
 }
 

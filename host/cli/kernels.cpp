@@ -82,14 +82,14 @@ ExitCode emit(const KernelsOptions& options) {
     failUsage(fmt::format("--emit {} {}: the folder cannot be made; a name that is free, or a folder, would do",
                           target.name, folder.string()));
   std::vector<fs::path> outputs{folder / "manifest.json"};
-  for (const KernelRequest& request : kernelRequests(plan, {}))
+  for (const KernelRequest& request : plan::kernelRequests(plan, {}))
     outputs.push_back(folder / fmt::format("{}.{}", request.stage, target.extension));
   support::checkApart(outputs, inputsOf(options));
   for (const fs::path& output : outputs) support::checkWhole(output);
   std::vector<std::vector<std::string>> rows{{"stage", "bytes", "file"}};
   std::size_t missing = 0;
   std::vector<WrittenStage> stages;
-  for (KernelRequest request : kernelRequests(plan, {})) {
+  for (KernelRequest request : plan::kernelRequests(plan, {})) {
     request.route = target.route;
     const kernels::Emitted emitted = kernels::emitKernel(kernels, request, target);
     const fs::path file = folder / fmt::format("{}.{}", emitted.stage, target.extension);

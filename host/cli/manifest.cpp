@@ -88,9 +88,9 @@ bool isUsed(const Json& reflection, const std::string& name, const Json& inText,
 /// Bytes that a buffer needs at least, as a formula. Null for a stream that is no buffer of the pipeline, and for the
 /// offsets of bins that have a place each, which are needed only where the bins run again at their counted sizes.
 Json sizeOf(const std::string& name, const Plan& plan) {
-  const BufferDoc* const doc = findBuffer(name);
+  const plan::BufferDoc* const doc = plan::findBuffer(name);
   if (doc == nullptr || name == "counters" || (name == "offsets" && !plan.runs("bin-count"))) return nullptr;
-  return fmt::format("{} * {}", doc->bytes, formula(doc->extent));
+  return fmt::format("{} * {}", doc->bytes, plan::formula(doc->extent));
 }
 
 Json stageOf(const WrittenStage& written, const Plan& plan, const kernels::EmitTarget& target) {
@@ -127,7 +127,7 @@ Json stageOf(const WrittenStage& written, const Plan& plan, const kernels::EmitT
           {"file", written.file},
           {"entryPoint", name},
           {"workgroupSize", entry.at("threadGroupSize")},
-          {"groups", groupFormula(tessera::stageOf(stage))},
+          {"groups", plan::groupFormula(tessera::plan::stageOf(stage))},
           {"uniforms", std::move(uniforms)},
           {"bindings", std::move(bindings)}};
 }
@@ -147,7 +147,7 @@ Variant recordedVariant(const Scene& scene, const Variant& asked, const Plan& pl
 /// The channels of the frame: the buffer of each, or of each stream of it.
 Json outputs(const Recorder& recorder) {
   Json list = Json::object();
-  for (const BufferDoc& doc : tessera::buffers())
+  for (const plan::BufferDoc& doc : tessera::plan::buffers())
     for (const auto& buffer : recorder.buffers())
       if (doc.channel && (buffer.pipeline == doc.name || buffer.pipeline.starts_with(doc.name + ' ')))
         list[buffer.pipeline] = {// the last of that name is the one in use

@@ -23,7 +23,8 @@ struct PlanOptions : Options {
 
 /// `files`: a user's, by stage; a pass that runs one says so.
 std::string planJson(const Plan& plan, const KernelFiles& files) {
-  nlohmann::ordered_json json{{"plan", nlohmann::ordered_json::array()}, {"variant", settable(plan.resolved).values()}};
+  nlohmann::ordered_json json{{"plan", nlohmann::ordered_json::array()},
+                              {"variant", plan::settable(plan.resolved).values()}};
   for (const auto& entry : plan.entries)
     json["plan"].push_back({{"pass", entry.pass}, {"kept", entry.kept}, {"why", entry.why}});
   for (const auto& [stage, file] : files) json["kernels"][stage] = file.string();
@@ -33,7 +34,7 @@ std::string planJson(const Plan& plan, const KernelFiles& files) {
 std::string planTable(const Plan& plan, const KernelFiles& files) {
   std::vector<std::vector<std::string>> rows{{"pass", "plan", "why"}};
   for (const auto& entry : plan.entries) rows.push_back({entry.pass, entry.kept ? "kept" : "left out", entry.why});
-  std::string text = support::table(rows) + "\nvariant: " + settable(plan.resolved).text() + '\n';
+  std::string text = support::table(rows) + "\nvariant: " + plan::settable(plan.resolved).text() + '\n';
   for (const auto& [stage, file] : files) text += fmt::format("kernel of {}: {}\n", stage, file.string());
   return text;
 }
@@ -43,7 +44,8 @@ ExitCode runPlan(const PlanOptions& options) {
   const KernelFiles files = kernelFilesOf(options);
   const auto device = deviceOf(options);
   const Plan plan = makePlan(sceneOf(options), variant, device->info());
-  kernelRequests(plan, files);  // refuses a file of a stage that the plan leaves out, or that the device cannot take
+  plan::kernelRequests(plan,
+                       files);  // refuses a file of a stage that the plan leaves out, or that the device cannot take
   support::say(stdout, "{}", options.json ? planJson(plan, files) : planTable(plan, files));
   return ExitCode::kDone;
 }

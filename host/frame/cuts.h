@@ -21,7 +21,7 @@ struct Band {
 
 /// Cuts the raster into bands. The pixel buffers of each band fit the device, and a lane of setup can walk the blocks
 /// of a band within the device's limit on loops. The dispatcher has to have the plan's kernels.
-std::vector<Band> cutBands(const Scene& scene, const Settings& settings, const Dispatcher& dispatcher);
+std::vector<Band> cutBands(const Scene& scene, const plan::Settings& settings, const Dispatcher& dispatcher);
 
 /// Triangles [first, first + count) of the scene.
 struct Batch {

@@ -14,7 +14,7 @@ namespace {
 /// A kernel binds the buffers of the pipeline, and the streams of the scene under their own names.
 void checkBuffers(const CompiledKernel& kernel, const Scene& scene) {
   for (const auto& [name, bytes] : kernel.interface.elementSizes) {
-    const BufferDoc* const doc = findBuffer(name);
+    const plan::BufferDoc* const doc = plan::findBuffer(name);
     if (doc == nullptr && scene.stream(name) == nullptr)
       fail(fmt::format("stage {}: `{}` is neither a buffer of the pipeline nor a stream of the scene", kernel.stage,
                        name));
@@ -27,7 +27,7 @@ void checkBuffers(const CompiledKernel& kernel, const Scene& scene) {
 }  // namespace
 
 void Dispatcher::prepare(const Plan& plan, const Scene& scene) {
-  const std::vector<CompiledKernel> compiled = compileStages(cache_, plan);
+  const std::vector<CompiledKernel> compiled = plan::compileStages(cache_, plan);
   kernels_.clear();
   used_.clear();
   plan_ = plan;
@@ -46,25 +46,25 @@ std::uint32_t Dispatcher::get(std::string_view field) const {
   return found->second;
 }
 
-std::uint64_t Dispatcher::count(Extent extent) const {
-  return tessera::count(extent, [this](std::string_view field) -> std::uint64_t { return get(field); });
+std::uint64_t Dispatcher::count(plan::Extent extent) const {
+  return tessera::plan::count(extent, [this](std::string_view field) -> std::uint64_t { return get(field); });
 }
 
 std::uint64_t Dispatcher::bytesOf(std::string_view buffer) const {
-  const BufferDoc& doc = bufferDoc(buffer);
+  const plan::BufferDoc& doc = plan::bufferDoc(buffer);
   return doc.bytes * count(doc.extent);
 }
 
-bool Dispatcher::fits(std::string_view buffer) const { return fits(buffer, count(bufferDoc(buffer).extent)); }
+bool Dispatcher::fits(std::string_view buffer) const { return fits(buffer, count(plan::bufferDoc(buffer).extent)); }
 
 bool Dispatcher::fits(std::string_view buffer, std::uint64_t elements) const {
-  return elements <= kMaxWord && elements * bufferDoc(buffer).bytes <= device_.info().maxBufferBytes;
+  return elements <= kMaxWord && elements * plan::bufferDoc(buffer).bytes <= device_.info().maxBufferBytes;
 }
 
 Buffer& Dispatcher::allocate(std::string_view buffer, std::string_view as) { return reserve(as, bytesOf(buffer)); }
 
-void Dispatcher::allocateAll(Extent extent) {
-  for (const BufferDoc& doc : buffers())
+void Dispatcher::allocateAll(plan::Extent extent) {
+  for (const plan::BufferDoc& doc : plan::buffers())
     if (doc.extent == extent && uses(doc.name) && !inputs_.contains(doc.name) && !aliases_.contains(doc.name))
       allocate(doc.name);
 }
@@ -144,13 +144,13 @@ void Dispatcher::dispatch(std::string_view name) {
   for (const auto& [resource, where] : interface.resources)
     if (resource != "frame") bindings.push_back({resource, &bound(interface, resource)});
   const std::uint64_t groups =
-      groupsOf(stageOf(name), [this](std::string_view field) -> std::uint64_t { return get(field); });
+      plan::groupsOf(plan::stageOf(name), [this](std::string_view field) -> std::uint64_t { return get(field); });
   device_.dispatch(kernel, bindings, block, static_cast<std::uint32_t>(groups));
 }
 
-void Dispatcher::dispatchAll(Moment moment) {
+void Dispatcher::dispatchAll(plan::Moment moment) {
   for (const std::string& stage : plan_.stages)
-    if (stageOf(stage).moment == moment) dispatch(stage);
+    if (plan::stageOf(stage).moment == moment) dispatch(stage);
 }
 
 }  // namespace tessera

@@ -43,7 +43,7 @@ class Dispatcher {
   std::uint32_t get(std::string_view field) const;
 
   /// How many elements the extent has with the current uniforms.
-  std::uint64_t count(Extent extent) const;
+  std::uint64_t count(plan::Extent extent) const;
   /// The size in bytes that the list of buffers gives the buffer with the current uniforms.
   std::uint64_t bytesOf(std::string_view buffer) const;
   /// Whether the buffer, at its size with the current uniforms, fits the device, and kernels can index its words with
@@ -57,7 +57,7 @@ class Dispatcher {
   Buffer& allocate(std::string_view buffer, std::string_view as);
   /// Makes room for each buffer of this extent that a kernel of the plan in force names. Inputs, and names that bind()
   /// has bound to another buffer, are left out.
-  void allocateAll(Extent extent);
+  void allocateAll(plan::Extent extent);
   /// Whether a kernel of the plan in force names the buffer.
   bool uses(std::string_view buffer) const { return used_.contains(buffer); }
   /// Binds the buffer `as` where kernels say `name`, until the next call for `name`.
@@ -80,7 +80,7 @@ class Dispatcher {
   /// Dispatches a stage once, over what the list of stages says.
   void dispatch(std::string_view stage);
   /// Dispatches once each stage of the plan in force that runs at this moment.
-  void dispatchAll(Moment moment);
+  void dispatchAll(plan::Moment moment);
   /// The plan in force.
   const Plan& plan() const { return plan_; }
 

@@ -63,13 +63,13 @@ void giveScene(Dispatcher& d, const Scene& scene) {
     d.input("positions", scene.positions.span());
   else
     d.input("clipSpace", scene.clip.span());
-  d.allocateAll(Extent::kVertices);
+  d.allocateAll(plan::Extent::kVertices);
   d.allocate("counters");
   for (const Stream& stream : scene.streams)
     if (stream.interpolated || d.uses(stream.name)) {
       d.input(bufferOf(stream), stream.values.span());
       // A stream may be called as a buffer of the pipeline is; then kernels mean the buffer.
-      if (findBuffer(stream.name) == nullptr) d.bind(stream.name, bufferOf(stream));
+      if (plan::findBuffer(stream.name) == nullptr) d.bind(stream.name, bufferOf(stream));
     }
 }
 

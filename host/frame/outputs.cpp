@@ -31,15 +31,15 @@ void keep(std::vector<StageOutput>& stages, std::string stage, std::string eleme
 }  // namespace
 
 void readBand(Dispatcher& d, const Scene& scene, Framebuffer& image) {
-  const std::size_t pixels = d.count(Extent::kPixels);
+  const std::size_t pixels = d.count(plan::Extent::kPixels);
   const auto intoChannel = [&](Channel& channel, std::string_view buffer) {
     const unsigned components = channel.components;
     std::visit([&](auto& whole) { append(whole, d, buffer, components * pixels, components * image.pixels()); },
                channel.data);
   };
-  for (const BufferDoc& doc : buffers()) {
+  for (const plan::BufferDoc& doc : plan::buffers()) {
     if (!doc.channel || !d.uses(doc.name)) continue;
-    if (doc.extent == Extent::kValues) {
+    if (doc.extent == plan::Extent::kValues) {
       for (const Stream* stream : interpolatedStreams(scene))
         intoChannel(image.makeChannel(stream->name, doc.channel->type, stream->components), valuesBufferOf(*stream));
       continue;
@@ -55,7 +55,7 @@ void readBand(Dispatcher& d, const Scene& scene, Framebuffer& image) {
   }
 }
 
-void keepSetup(Dispatcher& d, const Scene& scene, const Settings& settings, std::vector<StageOutput>& stages) {
+void keepSetup(Dispatcher& d, const Scene& scene, const plan::Settings& settings, std::vector<StageOutput>& stages) {
   keep(stages, "transform", "vertex, clip x y z w", 4, d.read<std::uint32_t>("clipSpace", 4 * scene.vertexCount()));
   const std::size_t slots = d.get("slotCount");
   auto pieces = d.read<std::uint32_t>("pieces", kPieceWords * slots);
@@ -76,9 +76,9 @@ void keepSetup(Dispatcher& d, const Scene& scene, const Settings& settings, std:
 
 void keepFrame(Dispatcher& d, const Scene& scene, const Bins& bins, std::vector<StageOutput>& stages) {
   if (d.uses("hits")) return;
-  const std::size_t pixels = d.count(Extent::kPixels);
+  const std::size_t pixels = d.count(plan::Extent::kPixels);
   if (bins.listed())
-    keep(stages, "bin", "tile, pieces", 1, d.read<std::uint32_t>("tileCounts", d.count(Extent::kTiles)));
+    keep(stages, "bin", "tile, pieces", 1, d.read<std::uint32_t>("tileCounts", d.count(plan::Extent::kTiles)));
   keep(stages, "raster", "pixel, depth", 1, d.read<std::uint32_t>("depth", pixels));
   keep(stages, "raster", "pixel, id", 1, d.read<std::uint32_t>("ids", pixels));
   for (const Stream* stream : interpolatedStreams(scene))

@@ -12,7 +12,8 @@ namespace tessera {
 void readBand(Dispatcher& dispatcher, const Scene& scene, Framebuffer& image);
 
 /// Appends what the stages before the bins wrote, in an order that does not depend on scheduling.
-void keepSetup(Dispatcher& dispatcher, const Scene& scene, const Settings& settings, std::vector<StageOutput>& stages);
+void keepSetup(Dispatcher& dispatcher, const Scene& scene, const plan::Settings& settings,
+               std::vector<StageOutput>& stages);
 /// Appends what the later stages wrote.
 void keepFrame(Dispatcher& dispatcher, const Scene& scene, const Bins& bins, std::vector<StageOutput>& stages);
 

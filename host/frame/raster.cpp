@@ -11,7 +11,7 @@ constexpr std::uint64_t kCell = 8;               // pixels, as in slang's layout
 constexpr std::uint64_t kMaxRange = 0x7fffffff;  // kernels add a range to where it begins
 
 /// Entries of each tile that one dispatch goes through.
-std::uint64_t entryRange(const Settings& settings, const Bins& bins, const DeviceInfo& device) {
+std::uint64_t entryRange(const plan::Settings& settings, const Bins& bins, const DeviceInfo& device) {
   const std::uint64_t across = settings.tile / kCell, cells = across * across;
   // Three walks over the tile's cells with the loop over lanes of each: to clear the tile, to load it and to store it.
   const LoopBound& loops = settings.loops;
@@ -23,7 +23,7 @@ std::uint64_t entryRange(const Settings& settings, const Bins& bins, const Devic
 
 }  // namespace
 
-void raster(Dispatcher& d, const Settings& settings, const Bins& bins, bool first) {
+void raster(Dispatcher& d, const plan::Settings& settings, const Bins& bins, bool first) {
   if (!bins.byTiles()) return d.dispatch("raster-items");
   const std::uint64_t range = entryRange(settings, bins, d.device().info());
   d.set("entryRange", static_cast<std::uint32_t>(std::min(range, kMaxRange)));

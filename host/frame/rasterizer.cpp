@@ -28,7 +28,7 @@ class FrameRun {
         device_(dispatcher.device()),
         scene_(scene),
         options_(options),
-        settings_(settingsOf(plan.resolved)),
+        settings_(plan::settingsOf(plan.resolved)),
         bins_(makeBins(settings_.binning)) {
     frame_.plan = std::move(plan);
     frame_.image.width = scene.width;
@@ -68,12 +68,12 @@ class FrameRun {
   bool renderBand(const Band& band, bool only) {
     if (!beginBand(band)) return false;
     const bool whole = only && batches_.size() == 1;
-    d_.dispatchAll(Moment::kBand);
+    d_.dispatchAll(plan::Moment::kBand);
     // The second pass finds the ids of the final depths, so the first pass goes through all batches before.
     for (unsigned pass = 0; pass < settings_.commit.passes; ++pass)
       for (std::size_t b = 0; b < batches_.size(); ++b)
         if (!renderBatch(b, pass, whole)) return false;
-    d_.dispatchAll(Moment::kRaster);
+    d_.dispatchAll(plan::Moment::kRaster);
     device_.finish();
     const std::vector<StageTime> visibility = device_.takeTimes();
     shadeBatches();
@@ -88,13 +88,13 @@ class FrameRun {
   bool beginBand(const Band& band) {
     d_.set("rowBegin", band.begin);
     d_.set("rowEnd", band.end);
-    d_.set("tilesX", static_cast<std::uint32_t>(ceilDivide(scene_.width, settings_.tile)));
-    d_.set("tilesY", static_cast<std::uint32_t>(ceilDivide(band.end - band.begin, settings_.tile)));
+    d_.set("tilesX", static_cast<std::uint32_t>(plan::ceilDivide(scene_.width, settings_.tile)));
+    d_.set("tilesY", static_cast<std::uint32_t>(plan::ceilDivide(band.end - band.begin, settings_.tile)));
     if (!giveTriangles()) return false;
     device_.takeTimes();  // what was lost to finding the cut is not the band's time
     tally_.beginBand();
     frame_.stages.clear();
-    d_.allocateAll(Extent::kPixels);
+    d_.allocateAll(plan::Extent::kPixels);
     return true;
   }
 
@@ -135,8 +135,8 @@ class FrameRun {
   bool prepareBatch(bool whole) {
     if (!setUp(d_, settings_, tally_)) return false;
     if (whole && options_.keepStages) keepSetup(d_, scene_, settings_, frame_.stages);
-    d_.allocateAll(Extent::kTriangles);
-    d_.dispatchAll(Moment::kBatch);
+    d_.allocateAll(plan::Extent::kTriangles);
+    d_.dispatchAll(plan::Moment::kBatch);
     BinsWork work{d_, tally_, settings_};
     return bins_->build(work);
   }
@@ -151,7 +151,7 @@ class FrameRun {
   void shadeBatches() {
     for (std::size_t b = 0; b < batches_.size(); ++b) {
       useBatch(b);
-      d_.dispatchAll(Moment::kVisible);
+      d_.dispatchAll(plan::Moment::kVisible);
     }
     for (const Stream* stream : interpolatedStreams(scene_)) {
       d_.set("components", stream->components);
@@ -160,7 +160,7 @@ class FrameRun {
       d_.allocate("values", valuesBufferOf(*stream));
       for (std::size_t b = 0; b < batches_.size(); ++b) {
         useBatch(b);
-        d_.dispatchAll(Moment::kStreams);
+        d_.dispatchAll(plan::Moment::kStreams);
       }
     }
   }
@@ -169,7 +169,7 @@ class FrameRun {
   Device& device_;
   const Scene& scene_;
   const FrameOptions& options_;
-  const Settings settings_;
+  const plan::Settings settings_;
   const std::unique_ptr<Bins> bins_;
   Frame frame_;
   Tally tally_;
@@ -179,7 +179,7 @@ class FrameRun {
 }  // namespace
 
 Plan makePlan(const Scene& scene, const Variant& variant, const DeviceInfo& device) {
-  return planFrame(scene, variant, device, [](std::string_view name) { return makeBins(name); });
+  return plan::planFrame(scene, variant, device, [](std::string_view name) { return makeBins(name); });
 }
 
 struct Rasterizer::State {

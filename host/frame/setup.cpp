@@ -4,7 +4,7 @@
 
 namespace tessera {
 
-bool setUp(Dispatcher& d, const Settings& settings, Tally& tally) {
+bool setUp(Dispatcher& d, const plan::Settings& settings, Tally& tally) {
   const std::uint64_t triangles = d.get("triangleCount");
   // Where growth starts: a scene of small triangles that nothing clips has no further pieces and no items.
   std::uint64_t extras = settings.clip ? std::max<std::uint64_t>(1024, triangles / 16) : 0;

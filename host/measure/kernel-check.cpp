@@ -33,7 +33,7 @@ KernelFiles runnable(const KernelFiles& files, const Plan& plan, const KernelCac
       KernelCache::Options alone = options;
       alone.files = {{stage, file}};
       KernelCache kernels(alone);
-      compileStages(kernels, plan);
+      plan::compileStages(kernels, plan);
       taken.emplace(stage, file);
     } catch (const Error& error) {
       if (error.code() != ExitCode::kUnsupported) throw;
@@ -96,7 +96,7 @@ struct KernelCheck::State {
     options.files = runnable(files, plan, options);
     if (options.files.empty()) return;
     auto kernels = std::make_unique<KernelCache>(options);
-    compileStages(*kernels, plan);
+    plan::compileStages(*kernels, plan);
     all.push_back({std::move(variant), options.files, std::move(device), std::move(kernels)});
   }
 
@@ -104,7 +104,7 @@ struct KernelCheck::State {
   void addChecking(const KernelRun& run, const KernelFiles& files) {
     std::unique_ptr<Device> device = openDevice(run.device, {.boundsChecks = true});
     auto kernels = std::make_unique<KernelCache>(KernelCache::Options{.files = files});
-    compileStages(*kernels, makePlan(scene, run.variant, device->info()));
+    plan::compileStages(*kernels, makePlan(scene, run.variant, device->info()));
     all.push_back({run.variant, files, std::move(device), std::move(kernels)});
   }
 

@@ -34,9 +34,9 @@ void compileKernels(KernelCache& kernels, const std::vector<Plan>& plans) {
         requests.push_back(std::move(request));
   };
   for (const auto& plan : plans) {
-    add(kernelRequests(plan, {}));
+    add(plan::kernelRequests(plan, {}));
     try {
-      if (!kernels.files().empty()) add(kernelRequests(plan, kernels.files()));
+      if (!kernels.files().empty()) add(plan::kernelRequests(plan, kernels.files()));
     } catch (const Error& error) {
       if (error.code() == ExitCode::kUsage) throw;  // a device that cannot run a user's kernel says so when it renders
     }
@@ -73,7 +73,7 @@ Frame measureRun(Run& run, Rasterizer& rasterizer, KernelCache& kernels, unsigne
   run.variant = first.plan.resolved;
   run.plan = first.plan.entries;
   run.counters = first.counters;
-  for (const auto& kernel : kernels.getAll(kernelRequests(first.plan, kernels.files()))) {
+  for (const auto& kernel : kernels.getAll(plan::kernelRequests(first.plan, kernels.files()))) {
     run.kernels[kernel.stage] = kernel.hash;
     if (!kernel.file.empty()) run.kernelFiles[kernel.stage] = {kernel.file.string(), kernel.fileHash};
   }

@@ -12,7 +12,7 @@
 
 #include "host/plan/settings.h"
 
-namespace tessera {
+namespace tessera::plan {
 
 /// The frame that bins are planned for.
 struct BinsLoad {
@@ -41,4 +41,4 @@ class BinsPlan {
 /// Gives the binning of a name. Throws kFailure where no binning has the name.
 using BinsOf = std::function<std::unique_ptr<BinsPlan>(std::string_view binning)>;
 
-}  // namespace tessera
+}  // namespace tessera::plan

@@ -7,7 +7,7 @@
 
 #include "host/support/suggest.h"
 
-namespace tessera {
+namespace tessera::plan {
 
 const std::vector<BufferDoc>& buffers() {
   using enum ChannelType;
@@ -57,4 +57,4 @@ bool isOfPixels(const BufferDoc& buffer) {
   return buffer.extent == Extent::kPixels || buffer.extent == Extent::kValues;
 }
 
-}  // namespace tessera
+}  // namespace tessera::plan

@@ -12,7 +12,7 @@
 
 #include "host/plan/extent.h"
 
-namespace tessera {
+namespace tessera::plan {
 
 /// The channel that a frame gets from a buffer that is read back.
 struct ChannelDoc {
@@ -41,4 +41,4 @@ const BufferDoc& bufferDoc(std::string_view name);
 /// buffer.
 bool isOfPixels(const BufferDoc& buffer);
 
-}  // namespace tessera
+}  // namespace tessera::plan

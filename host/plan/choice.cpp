@@ -8,7 +8,7 @@
 
 #include "host/axes/routes.h"
 
-namespace tessera {
+namespace tessera::plan {
 
 std::optional<std::string> missingNeed(const AxisValue& value, const DeviceInfo& device) {
   if (!axes::fulfils(device.routes, value))
@@ -80,4 +80,4 @@ std::string Choice::take(std::string_view name, const std::vector<std::string>& 
   return value;
 }
 
-}  // namespace tessera
+}  // namespace tessera::plan

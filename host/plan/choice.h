@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-namespace tessera {
+namespace tessera::plan {
 
 /// What the value needs and the device lacks, in words. Nothing where the device has all that the value needs.
 std::optional<std::string> missingNeed(const AxisValue& value, const DeviceInfo& device);
@@ -43,4 +43,4 @@ class Choice {
   Variant taken_;
 };
 
-}  // namespace tessera
+}  // namespace tessera::plan

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace tessera {
+namespace tessera::plan {
 namespace {
 
 constexpr std::uint64_t kScanBlock = 1024;  // elements that one group of a prefix sum takes: slang's scan has the same
@@ -56,4 +56,4 @@ const Size& sizeOf(Extent extent) {
 std::uint64_t count(Extent extent, const UniformValue& uniform) { return sizeOf(extent).count(uniform); }
 const std::string& formula(Extent extent) { return sizeOf(extent).formula; }
 
-}  // namespace tessera
+}  // namespace tessera::plan

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-namespace tessera {
+namespace tessera::plan {
 
 /// What there are many of.
 enum class Extent {
@@ -41,4 +41,4 @@ const std::string& formula(Extent extent);
 /// a / b, rounded up.
 inline std::uint64_t ceilDivide(std::uint64_t a, std::uint64_t b) { return (a + b - 1) / b; }
 
-}  // namespace tessera
+}  // namespace tessera::plan

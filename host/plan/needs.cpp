@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace tessera {
+namespace tessera::plan {
 namespace {
 
 /// A stage that is kept, or left out, under its own name.
@@ -101,4 +101,4 @@ Need needAttribute(const PlanFacts& facts) {
                             : fmt::format("a raster of the values of {}", fmt::join(names, ", ")));
 }
 
-}  // namespace tessera
+}  // namespace tessera::plan

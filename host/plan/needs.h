@@ -3,7 +3,7 @@
 
 #include "host/plan/stages.h"
 
-namespace tessera {
+namespace tessera::plan {
 
 Need needClear(const PlanFacts& facts);
 Need needTransform(const PlanFacts& facts);
@@ -20,4 +20,4 @@ Need needResolve(const PlanFacts& facts);
 Need needShade(const PlanFacts& facts);
 Need needAttribute(const PlanFacts& facts);
 
-}  // namespace tessera
+}  // namespace tessera::plan

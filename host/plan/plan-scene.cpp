@@ -6,7 +6,7 @@
 #include <limits>
 #include <span>
 
-namespace tessera {
+namespace tessera::plan {
 namespace {
 
 struct Bounds {
@@ -98,4 +98,4 @@ bool isOrthographic(const Scene& scene) {
   return m[12] == 0 && m[13] == 0 && m[14] == 0 && m[15] == 1;
 }
 
-}  // namespace tessera
+}  // namespace tessera::plan

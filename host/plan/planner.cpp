@@ -20,7 +20,7 @@ namespace {
 
 class Planner {
  public:
-  Planner(const Scene& scene, const Variant& asked, const DeviceInfo& device, const BinsOf& binsOf)
+  Planner(const Scene& scene, const Variant& asked, const DeviceInfo& device, const plan::BinsOf& binsOf)
       : scene_(scene),
         asked_(asked),
         device_(device),
@@ -40,11 +40,11 @@ class Planner {
 
  private:
   void geometry() {
-    crosses_ = mayCross(scene_);
+    crosses_ = plan::mayCross(scene_);
     const std::string clip = choice_.take("clip", {full_ || crosses_ ? "on" : "off"});
     if (clip == "off" && crosses_)
       failUsage("clip=off: triangles of this scene may cross a clip plane; leave clip unset, or set clip=on");
-    orthographic_ = isOrthographic(scene_);
+    orthographic_ = plan::isOrthographic(scene_);
     const std::string projection =
         choice_.take("projection", {full_ || !orthographic_ ? "perspective" : "orthographic"});
     if (projection == "orthographic" && !orthographic_)
@@ -63,11 +63,11 @@ class Planner {
     bins_ = binsOf_(loose ? choice_.take("binning", {"none", "exact", "queue"})
                           : choice_.take("binning", {"exact", "queue", "none"}));
     choice_.take("size-class", sizeClasses());
-    std::uint64_t largest = kBlock;
+    std::uint64_t largest = plan::kBlock;
     while (largest > 8 && tileBytes(largest) > device_.maxGroupBytes) largest /= 2;
     const double tile = std::stoi(choice_.take("tile", {std::to_string(largest)}));
-    const BinsLoad load{.tiles = std::ceil(scene_.width / tile) * std::ceil(scene_.height / tile),
-                        .triangles = double(scene_.triangles.size())};
+    const plan::BinsLoad load{.tiles = std::ceil(scene_.width / tile) * std::ceil(scene_.height / tile),
+                              .triangles = double(scene_.triangles.size())};
     bins_->check(load, device_);
     choice_.take("tile-test", {"edges", "box"});
     choice_.take("capacity", {std::to_string(std::bit_ceil(
@@ -149,19 +149,19 @@ class Planner {
 
   /// Which stages run, by the list of stages.
   Plan describe() {
-    const Settings settings = settingsOf(choice_.resolved());
-    const PlanFacts facts{.scene = scene_,
-                          .settings = settings,
-                          .full = full_,
-                          .crosses = crosses_,
-                          .orthographic = orthographic_,
-                          .byTiles = bins_->byTiles(),
-                          .binStages = bins_->stages(settings),
-                          .whyUncounted = bins_->whyUncounted(settings)};
-    for (const std::string& stage : facts.binStages) stageOf(stage);  // one that is not in the list would be lost
+    const plan::Settings settings = plan::settingsOf(choice_.resolved());
+    const plan::PlanFacts facts{.scene = scene_,
+                                .settings = settings,
+                                .full = full_,
+                                .crosses = crosses_,
+                                .orthographic = orthographic_,
+                                .byTiles = bins_->byTiles(),
+                                .binStages = bins_->stages(settings),
+                                .whyUncounted = bins_->whyUncounted(settings)};
+    for (const std::string& stage : facts.binStages) plan::stageOf(stage);  // one that is not in the list would be lost
     Plan plan;
-    for (const Stage& stage : stages()) {
-      Need need = stage.need(facts);
+    for (const plan::Stage& stage : plan::stages()) {
+      plan::Need need = stage.need(facts);
       if (need.runs) plan.stages.push_back(stage.name);
       std::ranges::move(need.entries, std::back_inserter(plan.entries));
     }
@@ -173,15 +173,17 @@ class Planner {
   const Scene& scene_;
   const Variant& asked_;
   const DeviceInfo& device_;
-  const BinsOf& binsOf_;
-  Choice choice_;
+  const plan::BinsOf& binsOf_;
+  plan::Choice choice_;
   bool full_, crosses_ = true, orthographic_ = false;
-  std::unique_ptr<BinsPlan> bins_;
+  std::unique_ptr<plan::BinsPlan> bins_;
 };
 
 }  // namespace
 
 bool Plan::runs(std::string_view stage) const { return std::ranges::find(stages, stage) != stages.end(); }
+
+namespace plan {
 
 Plan planFrame(const Scene& scene, const Variant& variant, const DeviceInfo& device, const BinsOf& binsOf) {
   if (scene.width == 0 || scene.height == 0 || scene.width > kMaxExtent || scene.height > kMaxExtent)
@@ -190,5 +192,7 @@ Plan planFrame(const Scene& scene, const Variant& variant, const DeviceInfo& dev
   if (device.routes.empty()) failUsage(fmt::format("{}: it names no route for kernels; one would do", device.name));
   return Planner(scene, variant, device, binsOf).run();
 }
+
+}  // namespace plan
 
 }  // namespace tessera

@@ -5,9 +5,9 @@
 
 #include "host/plan/bins.h"
 
-namespace tessera {
+namespace tessera::plan {
 
 /// Plans as makePlan() does, with binnings from `binsOf`. Throws as makePlan() does.
 Plan planFrame(const Scene& scene, const Variant& variant, const DeviceInfo& device, const BinsOf& binsOf);
 
-}  // namespace tessera
+}  // namespace tessera::plan

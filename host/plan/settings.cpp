@@ -1,6 +1,6 @@
 #include "host/plan/settings.h"
 
-namespace tessera {
+namespace tessera::plan {
 
 Settings settingsOf(const Variant& resolved) {
   const bool none = resolved.is("binning", "none");
@@ -20,4 +20,4 @@ Settings settingsOf(const Variant& resolved) {
           .shade = resolved.get("shade")};
 }
 
-}  // namespace tessera
+}  // namespace tessera::plan

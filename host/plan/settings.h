@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string>
 
-namespace tessera {
+namespace tessera::plan {
 
 inline constexpr std::uint32_t kBlock = 64;  ///< edge in pixels of slang's blocks, and of tiles where there are no bins
 
@@ -26,4 +26,4 @@ struct Settings {
 /// The settings of a resolved variant, which has a value for every axis.
 Settings settingsOf(const Variant& resolved);
 
-}  // namespace tessera
+}  // namespace tessera::plan

@@ -11,7 +11,7 @@
 #include "host/plan/needs.h"
 #include "host/support/suggest.h"
 
-namespace tessera {
+namespace tessera::plan {
 namespace {
 
 constexpr std::uint32_t kLanes = 64;  // slang's workgroup has the same
@@ -106,4 +106,4 @@ std::vector<CompiledKernel> compileStages(KernelCache& cache, const Plan& plan) 
   return kernels;
 }
 
-}  // namespace tessera
+}  // namespace tessera::plan

@@ -13,7 +13,7 @@
 #include "host/plan/extent.h"
 #include "host/plan/settings.h"
 
-namespace tessera {
+namespace tessera::plan {
 
 /// The facts that decide which stages a plan runs. All of them are known before the plan looks at the first stage.
 struct PlanFacts {
@@ -79,4 +79,4 @@ std::vector<KernelRequest> kernelRequests(const Plan& plan, const KernelFiles& f
 /// kernels.
 std::vector<CompiledKernel> compileStages(KernelCache& cache, const Plan& plan);
 
-}  // namespace tessera
+}  // namespace tessera::plan

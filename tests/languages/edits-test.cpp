@@ -26,7 +26,7 @@ TEST_CASE("An edit of a user's kernel or of what it includes compiles it again")
 
   std::size_t compiled = 0;
   const auto compilesAgain = [&](const std::string& stage, const std::filesystem::path& file) {
-    cache.get(kernels::requestOf(kernelRequest(stage, plan), file));
+    cache.get(kernels::requestOf(plan::kernelRequest(stage, plan), file));
     return cache.statistics().compiled != std::exchange(compiled, cache.statistics().compiled);
   };
   for (const auto& [stage, name, include] : {std::tuple{"transform", "transform.comp", "#include \"part.h\"\n"},

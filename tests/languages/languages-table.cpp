@@ -126,7 +126,7 @@ class Table {
     try {
       Variant variant(kind.settings);
       if (target.name == "glsl") variant.set("route", "glsl");
-      const KernelRequest request = kernelRequest(stage, makePlan(scene, variant, target.device));
+      const KernelRequest request = plan::kernelRequest(stage, makePlan(scene, variant, target.device));
       const kernels::Emitted emitted = kernels::emitKernel(cache_, request, target);
       if (!emitted.complaint.empty()) return {"no", withoutPlace(emitted.complaint)};
       const std::string said = judge(cache_, request, target, emitted.bytes);

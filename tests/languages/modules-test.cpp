@@ -88,14 +88,14 @@ TEST_CASE("A user's kernel may import the modules that are listed for its stage"
   const Plan tiles = machine.plan(smallScene(), {{"shade", "id"}}),
              items = machine.plan(smallScene(), {{"binning", "none"}, {"shade", "id"}}),
              colours = machine.plan(smallScene(), {{"commit", "depth24+lum8"}, {"shade", "id"}});
-  for (const Stage& stage : stages()) {
+  for (const plan::Stage& stage : plan::stages()) {
     INFO(stage.name);
     const Plan& plan = stage.name == "payload" || stage.name == "resolve" ? colours
                        : stage.name == "raster-items"                     ? items
                                                                           : tiles;
     const fs::path file = bench.write(stage.name + "-user.slang", importsFor(stage.name) + "import rasterizer.clip;\n" +
                                                                       kernels::readText(example("by-depth.slang")));
-    CHECK_NOTHROW(machine.kernels().get(kernels::requestOf(kernelRequest(stage.name, plan), file)));
+    CHECK_NOTHROW(machine.kernels().get(kernels::requestOf(plan::kernelRequest(stage.name, plan), file)));
   }
 }
 

@@ -45,7 +45,7 @@ TEST_CASE("Transform by hand leaves nothing to the driver") {
   Machine machine = machineWith("spirv", {});
   for (const char* clip : {"on", "off"}) {
     const Plan plan = machine.plan(smallScene(), {{"clip", clip}, {"projection", "perspective"}});
-    const KernelRequest own = kernelRequest("transform", plan);
+    const KernelRequest own = plan::kernelRequest("transform", plan);
     const CompiledKernel kernel = machine.kernels().get(kernels::requestOf(own, example("transform.comp")));
     CHECK(kernels::exactnessWarning(kernel) == "");
     const Bench bench;

@@ -46,7 +46,7 @@ Scene simpleScene(bool objectSpace) {
   return scene;
 }
 
-std::vector<KernelRequest> kernelsOf(const Stage& stage, Route route, std::size_t strength) {
+std::vector<KernelRequest> kernelsOf(const plan::Stage& stage, Route route, std::size_t strength) {
   DeviceInfo device;
   device.routes = {axes::routeInfo(route).name};
   Scene scene = simpleScene(stage.name != "project");
@@ -70,7 +70,7 @@ std::vector<KernelRequest> kernelsOf(const Stage& stage, Route route, std::size_
   std::set<VariantModules> seen;
   for (const Variant& variant :
        covering(base, axesRead, strength, [&](const Variant& v) { return planOf(v).has_value(); })) {
-    KernelRequest request = kernelRequest(stage.name, *planOf(variant));
+    KernelRequest request = plan::kernelRequest(stage.name, *planOf(variant));
     if (seen.insert(request.modules).second) kernels.push_back(std::move(request));
   }
   return kernels;
@@ -80,7 +80,8 @@ std::vector<std::string> settingsOf(const KernelRequest& kernel) { return axes::
 
 std::vector<KernelRequest> coveringKernels(Route route, std::size_t strength) {
   std::vector<KernelRequest> all;
-  for (const Stage& stage : stages()) std::ranges::copy(kernelsOf(stage, route, strength), std::back_inserter(all));
+  for (const plan::Stage& stage : plan::stages())
+    std::ranges::copy(kernelsOf(stage, route, strength), std::back_inserter(all));
   return all;
 }
 

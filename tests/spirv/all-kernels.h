@@ -13,7 +13,7 @@ Scene simpleScene(bool objectSpace);
 
 /// Distinct kernels of a stage that some plan dispatches on this route, such that each set of `strength` values of the axes
 /// that it reads is in one of them. Their product is beyond compiling: raster-tiles alone has some 10^5 kernels.
-std::vector<KernelRequest> kernelsOf(const Stage& stage, Route route, std::size_t strength = 1);
+std::vector<KernelRequest> kernelsOf(const plan::Stage& stage, Route route, std::size_t strength = 1);
 /// Of all stages.
 std::vector<KernelRequest> coveringKernels(Route route, std::size_t strength);
 

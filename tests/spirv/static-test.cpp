@@ -26,7 +26,7 @@ std::size_t findInstruction(const std::vector<std::uint32_t>& words, std::uint32
 
 /// The kernel of `project`, which divides, multiplies and adds.
 CompiledKernel projectKernel(Route route) {
-  const Stage& stage = *std::ranges::find(stages(), "project", &Stage::name);
+  const plan::Stage& stage = *std::ranges::find(plan::stages(), "project", &plan::Stage::name);
   return KernelCache().get(kernelsOf(stage, route).at(0));
 }
 
@@ -45,7 +45,7 @@ bool neverRuns(const std::string& stage, const Axis& axis, const AxisValue& valu
 
 TEST_CASE("every value of an axis that a stage reads is in a kernel of it") {
   for (const Route route : {Route::kCpp, Route::kSpirv, Route::kGlsl}) {
-    for (const Stage& stage : stages()) {
+    for (const plan::Stage& stage : plan::stages()) {
       const std::vector<KernelRequest> pairs = kernelsOf(stage, route, 2);
       INFO(stage.name);
       REQUIRE(!pairs.empty());

@@ -97,7 +97,8 @@ TEST_CASE("Each value of an axis that kernels read has kernels of its own", "[ax
     for (const std::string& stage : axis.stages)
       for (const AxisValue& value : axis.values)
         if (const auto plan = planWith(stage, axis.name, value.name); plan && plan->resolved.get("route") == "spirv")
-          kernels[value.name][stage] = stripped(kernels::readSpirv(cache.get(kernelRequest(stage, *plan)).binary));
+          kernels[value.name][stage] =
+              stripped(kernels::readSpirv(cache.get(plan::kernelRequest(stage, *plan)).binary));
     for (const AxisValue& a : axis.values)
       for (const AxisValue& b : axis.values) {
         if (a.slang == b.slang) continue;  // the host does it: evidence.cpp shows what
@@ -115,20 +116,20 @@ TEST_CASE("Each value of an axis that kernels read has kernels of its own", "[ax
 
 TEST_CASE("Each route has kernels of its own", "[axes]") {
   KernelCache cache;
-  for (const Stage& stage : stages()) {
+  for (const plan::Stage& stage : plan::stages()) {
     INFO(stage.name);
     std::set<std::string> binaries;
     for (const AxisValue& route : axis("route").values) {
       const auto plan = planWith(stage.name, "route", route.name);
       REQUIRE(plan);
-      binaries.insert(kernels::readText(cache.get(kernelRequest(stage.name, *plan)).binary));
+      binaries.insert(kernels::readText(cache.get(plan::kernelRequest(stage.name, *plan)).binary));
     }
     CHECK(binaries.size() == axis("route").values.size());
   }
 }
 
 TEST_CASE("A stage's kernel is keyed by the axes that it reads alone", "[axes]") {
-  for (const Stage& stage : stages()) {
+  for (const plan::Stage& stage : plan::stages()) {
     const auto base = planWith(stage.name, "route", "spirv");
     REQUIRE(base);
     for (const Axis& axis : allAxes()) {
@@ -136,7 +137,7 @@ TEST_CASE("A stage's kernel is keyed by the axes that it reads alone", "[axes]")
       for (const AxisValue& value : axis.values) {
         Plan plan = *base;  // as given, without asking whether the planner would
         plan.resolved.set(axis.name, value.name);
-        modules.insert(kernelRequest(stage.name, plan).modules.text());
+        modules.insert(plan::kernelRequest(stage.name, plan).modules.text());
         texts.insert(value.slang);
       }
       INFO(stage.name << ", " << axis.name);

@@ -11,7 +11,7 @@ std::vector<std::uint32_t> rasterModule(const Variant& variant) {
   KernelCache cache;
   DeviceInfo device;
   device.routes = {"spirv", "glsl"};
-  return kernels::readSpirv(cache.get(kernelRequest("raster-tiles", makePlan(Scene{}, variant, device))).binary);
+  return kernels::readSpirv(cache.get(plan::kernelRequest("raster-tiles", makePlan(Scene{}, variant, device))).binary);
 }
 /// Instructions of a module that `counts` is true of, by opcode and first operand.
 std::size_t instructions(const Variant& variant, const std::function<bool(std::uint32_t, std::uint32_t)>& counts) {
@@ -48,7 +48,7 @@ int lanesAtOnce(const std::string& width) {
   Variant variant("size-class=shape");
   variant.set("lane-width", width);
   const VariantModules modules =
-      kernelRequest("raster-tiles", makePlan(Scene{}, variant, machineAt<Cpu>()->device().info())).modules;
+      plan::kernelRequest("raster-tiles", makePlan(Scene{}, variant, machineAt<Cpu>()->device().info())).modules;
   return modules.laneWidth ? int(modules.laneWidth) : 16;
 }
 

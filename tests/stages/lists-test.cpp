@@ -31,7 +31,7 @@ std::string messageOf(Call call) {
 /// A binning that asks for a stage that is not there.
 class Astray final : public Bins {
  public:
-  std::vector<std::string> stages(const Settings&) const override { return {"bin-astray"}; }
+  std::vector<std::string> stages(const plan::Settings&) const override { return {"bin-astray"}; }
   bool build(BinsWork&) override { return true; }
   std::uint64_t largest() const override { return 0; }
 };
@@ -42,8 +42,8 @@ TEST_CASE("An unknown stage or buffer or counter or binning is an error with its
   Machine& machine = *machineAt<Cpu>();
   Dispatcher dispatcher(machine.device(), machine.kernels());
   using Catch::Contains;
-  CHECK_THAT(messageOf([] { stageOf("bin-astray"); }), Contains("bin-astray"));
-  CHECK_THAT(messageOf([] { bufferDoc("astray"); }), Contains("`astray`"));
+  CHECK_THAT(messageOf([] { plan::stageOf("bin-astray"); }), Contains("bin-astray"));
+  CHECK_THAT(messageOf([] { plan::bufferDoc("astray"); }), Contains("`astray`"));
   CHECK_THAT(messageOf([&] { dispatcher.allocate("astray"); }), Contains("`astray`"));
   CHECK_THAT(messageOf([&] { dispatcher.read<std::uint32_t>("tileCounts", 1); }), Contains("`tileCounts`"));
   CHECK_THAT(messageOf([&] { dispatcher.get("tilesX"); }), Contains("tilesX"));
@@ -52,7 +52,8 @@ TEST_CASE("An unknown stage or buffer or counter or binning is an error with its
   CHECK_THAT(messageOf([] { counterIndex("binned"); }), Contains("binned"));  // the host counts it
   CHECK_THAT(messageOf([] { makeBins("astray"); }), Contains("binning=astray"));
   CHECK_THAT(messageOf([&] {
-               planFrame(Scene{}, {}, machine.info(), [](std::string_view) { return std::make_unique<Astray>(); });
+               plan::planFrame(Scene{}, {}, machine.info(),
+                               [](std::string_view) { return std::make_unique<Astray>(); });
              }),
              Contains("bin-astray"));
 }
@@ -62,25 +63,25 @@ TEST_CASE("Every stage and every buffer of the lists has a name of its own and a
       {"width", 100},     {"rowBegin", 64},     {"rowEnd", 128},      {"tilesX", 2},  {"tilesY", 3},
       {"vertexCount", 5}, {"triangleCount", 7}, {"components", 3},    {"maskWords", 4}, {"extraCapacity", 8},
       {"slotCount", 9},   {"itemCount", 10},    {"itemCapacity", 11}, {"scanCount", 2049}, {"entryCapacity", 12}};
-  const UniformValue value = [&](std::string_view name) { return uniforms.find(name)->second; };
+  const plan::UniformValue value = [&](std::string_view name) { return uniforms.find(name)->second; };
   std::set<std::string> names;
-  for (const Stage& stage : stages()) {
+  for (const plan::Stage& stage : plan::stages()) {
     INFO(stage.name);
     CHECK(names.insert(stage.name).second);
-    CHECK(groupsOf(stage, value) > 0);
-    CHECK(!groupFormula(stage).empty());
+    CHECK(plan::groupsOf(stage, value) > 0);
+    CHECK(!plan::groupFormula(stage).empty());
   }
   names.clear();
-  for (const BufferDoc& buffer : buffers()) {
+  for (const plan::BufferDoc& buffer : plan::buffers()) {
     INFO(buffer.name);
     CHECK(names.insert(buffer.name).second);
     CHECK(buffer.bytes % 4 == 0);
-    CHECK(count(buffer.extent, value) > 0);
+    CHECK(plan::count(buffer.extent, value) > 0);
   }
-  CHECK(count(Extent::kScanGroups, value) == 3);
-  CHECK(count(Extent::kValues, value) == 3 * 64 * 100);
+  CHECK(plan::count(plan::Extent::kScanGroups, value) == 3);
+  CHECK(plan::count(plan::Extent::kValues, value) == 3 * 64 * 100);
   for (const Axis& axis : allAxes())
-    for (const std::string& stage : axis.stages) CHECK(messageOf([&] { stageOf(stage); }) == "");
+    for (const std::string& stage : axis.stages) CHECK(messageOf([&] { plan::stageOf(stage); }) == "");
 }
 
 TEST_CASE("Every binning of the axis has its host half") {

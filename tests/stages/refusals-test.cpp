@@ -168,11 +168,11 @@ TEST_CASE("What a plan chose can be set and chooses the same again", "[refusals]
           continue;  // refused, as it may be
         }
         ++planned;
-        const Variant chosen = settable(plan.resolved);
+        const Variant chosen = plan::settable(plan.resolved);
         INFO("asked " << asked.text() << "\nchosen " << chosen.text());
         Plan again;
         REQUIRE_NOTHROW(again = makePlan(scene, chosen, device));
-        REQUIRE(settable(again.resolved).text() == chosen.text());
+        REQUIRE(plan::settable(again.resolved).text() == chosen.text());
         REQUIRE(again.resolved.get("binning") == plan.resolved.get("binning"));
         for (const auto& name : {axis, otherAxis}) REQUIRE(chosen.get(name) == asked.get(name));  // nothing set is lost
       }

@@ -43,7 +43,7 @@ TEST_CASE("No stage for a device without 64-bit types declares one") {
       CHECK(plan.resolved.get("wide") == "two-word");
       for (const std::string& stage : plan.stages) {
         INFO(stage << ", " << variant.text());
-        CHECK(!isWide(kernels.get(kernelRequest(stage, plan))));
+        CHECK(!isWide(kernels.get(plan::kernelRequest(stage, plan))));
       }
     }
 }
@@ -52,7 +52,7 @@ TEST_CASE("Native 64-bit integers are declared by the stage and refused without 
   KernelCache kernels;
   DeviceInfo device = device32();
   device.int64 = true;
-  CHECK(isWide(kernels.get(kernelRequest("setup", makePlan(Scene{}, {}, device)))));
+  CHECK(isWide(kernels.get(plan::kernelRequest("setup", makePlan(Scene{}, {}, device)))));
   try {
     makePlan(Scene{}, {{"wide", "native"}}, device32());
     FAIL("no refusal");

@@ -11,7 +11,7 @@ constexpr double kMostBoxes = 4294967296.0;  // that a frame looks at: some seco
 
 class AabbScan final : public AllSlots {
  public:
-  void check(const BinsLoad& load, const DeviceInfo&) const override {
+  void check(const plan::BinsLoad& load, const DeviceInfo&) const override {
     const double boxes = load.tiles * load.triangles;
     if (boxes > kMostBoxes)
       failUsage(

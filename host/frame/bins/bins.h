@@ -20,11 +20,11 @@ namespace tessera {
 struct BinsWork {
   Dispatcher& dispatcher;
   Tally& tally;
-  const Settings& settings;
+  const plan::Settings& settings;
 };
 
 /// The bins of one batch.
-class Bins : public BinsPlan {
+class Bins : public plan::BinsPlan {
  public:
   /// Builds the bins of the batch whose pieces setup has made. Returns false where a buffer would be larger than the
   /// device's largest buffer. The caller then cuts the triangles into smaller batches. Throws kOverflow under

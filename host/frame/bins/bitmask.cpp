@@ -14,7 +14,7 @@ constexpr std::uint64_t kWordBits = 32;
 
 class Bitmask final : public AllSlots {
  public:
-  void check(const BinsLoad& load, const DeviceInfo& device) const override {
+  void check(const plan::BinsLoad& load, const DeviceInfo& device) const override {
     const double bytes = load.tiles * std::ceil(load.triangles / kWordBits) * 4;
     if (bytes > kMostMaskBytes)
       failUsage(
@@ -27,11 +27,11 @@ class Bitmask final : public AllSlots {
                       "largest buffer of {} holds {:.0f}; set a larger tile, or binning=exact",
                       load.tiles, load.triangles, bytes / 0x1p20, device.name, double(device.maxBufferBytes) / 0x1p20));
   }
-  std::vector<std::string> stages(const Settings&) const override { return {"bin-insert"}; }
+  std::vector<std::string> stages(const plan::Settings&) const override { return {"bin-insert"}; }
   bool build(BinsWork& work) override {
     Dispatcher& d = work.dispatcher;
     AllSlots::build(work);
-    d.set("maskWords", static_cast<std::uint32_t>(ceilDivide(largest(), kWordBits)));
+    d.set("maskWords", static_cast<std::uint32_t>(plan::ceilDivide(largest(), kWordBits)));
     if (!d.fits("masks")) return false;
     d.allocate("masks");
     d.zero("masks");

@@ -6,7 +6,7 @@ namespace {
 
 class Exact final : public Lists {
  public:
-  std::vector<std::string> stages(const Settings&) const override {
+  std::vector<std::string> stages(const plan::Settings&) const override {
     return {"bin-count", "scan-blocks", "scan-add", "bin-insert"};
   }
   bool build(BinsWork& work) override {

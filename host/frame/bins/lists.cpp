@@ -8,12 +8,12 @@ namespace tessera {
 namespace {
 
 std::vector<std::uint32_t> tileCounts(Dispatcher& d) {
-  return d.read<std::uint32_t>("tileCounts", d.count(Extent::kTiles));
+  return d.read<std::uint32_t>("tileCounts", d.count(plan::Extent::kTiles));
 }
 
 /// Whether all entries together have offsets. Only where the bound is past them are the counts themselves added up.
 bool entriesFitWord(Dispatcher& d, std::uint64_t largest) {
-  if (largest * d.count(Extent::kTiles) <= kMaxWord) return true;
+  if (largest * d.count(plan::Extent::kTiles) <= kMaxWord) return true;
   std::uint64_t sum = 0;
   for (const std::uint32_t entries : tileCounts(d)) sum += entries;
   return sum <= kMaxWord;
@@ -26,7 +26,7 @@ bool Lists::insertCounted(BinsWork& work) {
   sumTileCounts(d);
   largest_ = KernelCounters(d)["largestBin"];
   if (!entriesFitWord(d, largest_)) return false;
-  const std::uint64_t total = d.read<std::uint32_t>("offsets", 1, d.count(Extent::kTiles))[0];
+  const std::uint64_t total = d.read<std::uint32_t>("offsets", 1, d.count(plan::Extent::kTiles))[0];
   d.set("entryCapacity", static_cast<std::uint32_t>(total));
   if (!d.fits("entries")) return false;
   binned_ = total;

@@ -24,12 +24,12 @@ void use(Dispatcher& d, std::size_t level, std::uint64_t elements) {
 
 void sumTileCounts(Dispatcher& d) {
   // A level sums what each group of the level below has summed; the last level is one group.
-  std::vector<std::uint64_t> elements{d.count(Extent::kTiles)};
+  std::vector<std::uint64_t> elements{d.count(plan::Extent::kTiles)};
   for (std::size_t level = 0; level < elements.size(); ++level) {
     use(d, level, elements[level]);
     d.bind("scanSums", in(level + 1));
     d.dispatch("scan-blocks");
-    if (const std::uint64_t groups = d.count(Extent::kScanGroups); groups > 1) elements.push_back(groups);
+    if (const std::uint64_t groups = d.count(plan::Extent::kScanGroups); groups > 1) elements.push_back(groups);
   }
   for (std::size_t level = elements.size() - 1; level-- > 0;) {
     use(d, level, elements[level]);

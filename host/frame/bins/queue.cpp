@@ -9,28 +9,28 @@ namespace {
 
 class Queue final : public Lists {
  public:
-  std::vector<std::string> stages(const Settings& settings) const override {
-    if (settings.overflow == Overflow::kRetry) return {"scan-blocks", "scan-add", "bin-insert"};
+  std::vector<std::string> stages(const plan::Settings& settings) const override {
+    if (settings.overflow == plan::Overflow::kRetry) return {"scan-blocks", "scan-add", "bin-insert"};
     return {"bin-insert"};
   }
-  std::string whyUncounted(const Settings&) const override {
+  std::string whyUncounted(const plan::Settings&) const override {
     return "queues have a fixed capacity; only a retry counts and scans";
   }
 
   bool build(BinsWork& work) override {
     Dispatcher& d = work.dispatcher;
-    const std::uint64_t capacity = work.settings.capacity, entries = d.count(Extent::kTiles) * capacity;
+    const std::uint64_t capacity = work.settings.capacity, entries = d.count(plan::Extent::kTiles) * capacity;
     refuseBeyondDevice(d, capacity, entries);
     d.allocate("tileCounts");
     d.set("queueCapacity", static_cast<std::uint32_t>(capacity));
     insert(work, entries);
     largest_ = capacity;
     const std::uint64_t overflowed = KernelCounters(d)["overflowed"];
-    if (overflowed == 0 || work.settings.overflow == Overflow::kDrop) {
+    if (overflowed == 0 || work.settings.overflow == plan::Overflow::kDrop) {
       binned_.reset();
       return true;
     }
-    if (work.settings.overflow == Overflow::kError)
+    if (work.settings.overflow == plan::Overflow::kError)
       throw Error(ExitCode::kOverflow,
                   fmt::format("capacity={}: {} bin entries did not fit; set overflow=retry or a larger capacity",
                               capacity, overflowed));
@@ -46,7 +46,7 @@ class Queue final : public Lists {
       failUnsupported(
           fmt::format("capacity={}: {} tiles of it take {} bytes, the largest buffer of {} holds {}; set a smaller "
                       "capacity or a larger tile",
-                      capacity, d.count(Extent::kTiles), entries * 4, device.name, device.maxBufferBytes));
+                      capacity, d.count(plan::Extent::kTiles), entries * 4, device.name, device.maxBufferBytes));
   }
 };
 
