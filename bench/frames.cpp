@@ -10,7 +10,7 @@ namespace {
 
 using namespace tessera;
 
-void frame(benchmark::State& state, bench::Machine& machine, const bench::BenchScene& what, std::uint32_t size) {
+void renderOnce(benchmark::State& state, bench::Machine& machine, const bench::BenchScene& what, std::uint32_t size) {
   const Scene scene = bench::load(what, size, size);
   const FrameOptions inPlace{.readBack = false};
   machine.rasterizer.render(scene, {}, inPlace);  // compiles, and grows buffers to their sizes
@@ -32,8 +32,9 @@ int main(int argc, char** argv) {
   return bench::runSuite("frames", argc, argv, [](bench::Machine& machine) {
     for (const bench::BenchScene& scene : bench::scenes())
       for (const std::uint32_t size : {512u, 2048u})
-        benchmark::RegisterBenchmark(fmt::format("frame/scene:{}/size:{}", scene.name, size).c_str(),
-                                     [&machine, scene, size](benchmark::State& state) { frame(state, machine, scene, size); })
+        benchmark::RegisterBenchmark(
+            fmt::format("frame/scene:{}/size:{}", scene.name, size).c_str(),
+            [&machine, scene, size](benchmark::State& state) { renderOnce(state, machine, scene, size); })
             ->UseManualTime()
             ->Unit(benchmark::kMillisecond);
   });

@@ -7,7 +7,7 @@
 
 #include "host/plan/buffers.h"
 
-namespace tessera {
+namespace tessera::frame {
 namespace {
 
 constexpr std::uint64_t kClippedPieces =
@@ -63,4 +63,4 @@ std::vector<Batch> halved(const std::vector<Batch>& batches, const DeviceInfo& d
   return halves;
 }
 
-}  // namespace tessera
+}  // namespace tessera::frame

@@ -12,7 +12,7 @@
 #include "host/frame/dispatcher.h"
 #include "host/plan/settings.h"
 
-namespace tessera {
+namespace tessera::frame {
 
 /// Rows [begin, end) of the raster. A band begins on a row of blocks, and so on a row of cells and on a row of tiles.
 struct Band {
@@ -35,4 +35,4 @@ std::vector<Batch> halved(const std::vector<Batch>& batches, const DeviceInfo& d
 /// How many iterations of loops the device lets a lane run beyond `fixed` iterations.
 std::uint64_t loopsBeyond(std::uint64_t fixed, const DeviceInfo& device);
 
-}  // namespace tessera
+}  // namespace tessera::frame

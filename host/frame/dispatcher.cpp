@@ -8,7 +8,7 @@
 
 #include "host/plan/buffers.h"
 
-namespace tessera {
+namespace tessera::frame {
 namespace {
 
 /// A kernel binds the buffers of the pipeline, and the streams of the scene under their own names.
@@ -153,4 +153,4 @@ void Dispatcher::dispatchAll(plan::Moment moment) {
     if (plan::stageOf(stage).moment == moment) dispatch(stage);
 }
 
-}  // namespace tessera
+}  // namespace tessera::frame

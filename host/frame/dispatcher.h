@@ -19,7 +19,7 @@
 
 #include "host/plan/stages.h"
 
-namespace tessera {
+namespace tessera::frame {
 
 /// The last word of a buffer that a kernel can name: kernels index with 32 bits.
 inline constexpr std::uint64_t kMaxWord = 0xffffffff;
@@ -119,4 +119,4 @@ class Dispatcher {
   std::map<std::string, std::uint32_t, std::less<>> uniforms_;
 };
 
-}  // namespace tessera
+}  // namespace tessera::frame

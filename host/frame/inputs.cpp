@@ -6,7 +6,7 @@
 #include "host/frame/lighting.h"
 #include "host/plan/buffers.h"
 
-namespace tessera {
+namespace tessera::frame {
 namespace {
 
 constexpr char kStream[] = "stream ", kValues[] = "values ";  // no buffer of the pipeline begins so
@@ -73,4 +73,4 @@ void giveScene(Dispatcher& d, const Scene& scene) {
     }
 }
 
-}  // namespace tessera
+}  // namespace tessera::frame

@@ -5,7 +5,7 @@
 
 #include "host/frame/dispatcher.h"
 
-namespace tessera {
+namespace tessera::frame {
 
 /// Gives the scene to the kernels. Throws kUnsupported where the vertices do not fit the device's largest buffer.
 void giveScene(Dispatcher& dispatcher, const Scene& scene);
@@ -15,4 +15,4 @@ std::string bufferOf(const Stream& stream);
 /// The name of the buffer that holds the values of an interpolated stream.
 std::string valuesBufferOf(const Stream& stream);
 
-}  // namespace tessera
+}  // namespace tessera::frame

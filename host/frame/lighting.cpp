@@ -5,7 +5,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
-namespace tessera {
+namespace tessera::frame {
 namespace {
 
 glm::dvec3 unit(const glm::dvec3& v, const glm::dvec3& otherwise) {
@@ -33,4 +33,4 @@ Lighting lightingOf(const Matrix& m) {
           {single(eye.x), single(eye.y), single(eye.z), single(eye.w)}};
 }
 
-}  // namespace tessera
+}  // namespace tessera::frame

@@ -5,7 +5,7 @@
 
 #include <array>
 
-namespace tessera {
+namespace tessera::frame {
 
 /// Light and eye.
 struct Lighting {
@@ -16,4 +16,4 @@ struct Lighting {
 /// Light and eye for a matrix. The light comes from the viewer's side, from above and a little from the left.
 Lighting lightingOf(const Matrix& clipFromObject);
 
-}  // namespace tessera
+}  // namespace tessera::frame

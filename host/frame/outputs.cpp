@@ -10,7 +10,7 @@
 #include "host/frame/inputs.h"
 #include "host/plan/buffers.h"
 
-namespace tessera {
+namespace tessera::frame {
 namespace {
 
 constexpr std::size_t kPieceWords = 10;  // slang's layout: Piece
@@ -86,4 +86,4 @@ void keepFrame(Dispatcher& d, const Scene& scene, const Bins& bins, std::vector<
          d.read<std::uint32_t>(valuesBufferOf(*stream), stream->components * pixels));
 }
 
-}  // namespace tessera
+}  // namespace tessera::frame

@@ -6,7 +6,7 @@
 #include "host/frame/bins/bins.h"
 #include "host/frame/dispatcher.h"
 
-namespace tessera {
+namespace tessera::frame {
 
 /// Appends the band's rows to each channel that the plan's kernels make.
 void readBand(Dispatcher& dispatcher, const Scene& scene, Framebuffer& image);
@@ -17,4 +17,4 @@ void keepSetup(Dispatcher& dispatcher, const Scene& scene, const plan::Settings&
 /// Appends what the later stages wrote.
 void keepFrame(Dispatcher& dispatcher, const Scene& scene, const Bins& bins, std::vector<StageOutput>& stages);
 
-}  // namespace tessera
+}  // namespace tessera::frame

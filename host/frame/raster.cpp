@@ -4,7 +4,7 @@
 
 #include "host/frame/cuts.h"
 
-namespace tessera {
+namespace tessera::frame {
 namespace {
 
 constexpr std::uint64_t kCell = 8;               // pixels, as in slang's layout
@@ -36,4 +36,4 @@ void raster(Dispatcher& d, const plan::Settings& settings, const Bins& bins, boo
   }
 }
 
-}  // namespace tessera
+}  // namespace tessera::frame

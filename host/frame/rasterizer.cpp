@@ -23,13 +23,13 @@ namespace {
 /// One call of render().
 class FrameRun {
  public:
-  FrameRun(Dispatcher& dispatcher, const Scene& scene, Plan plan, const FrameOptions& options)
+  FrameRun(frame::Dispatcher& dispatcher, const Scene& scene, Plan plan, const FrameOptions& options)
       : d_(dispatcher),
         device_(dispatcher.device()),
         scene_(scene),
         options_(options),
         settings_(plan::settingsOf(plan.resolved)),
-        bins_(makeBins(settings_.binning)) {
+        bins_(frame::makeBins(settings_.binning)) {
     frame_.plan = std::move(plan);
     frame_.image.width = scene.width;
     frame_.image.height = scene.height;
@@ -45,14 +45,14 @@ class FrameRun {
 
   Frame run() {
     d_.prepare(frame_.plan, scene_);
-    giveScene(d_, scene_);
-    const std::vector<Band> bands = cutBands(scene_, settings_, d_);
+    frame::giveScene(d_, scene_);
+    const std::vector<frame::Band> bands = frame::cutBands(scene_, settings_, d_);
     batches_ = {{0, scene_.triangles.size()}};
     device_.takeTimes();
-    for (const Band& band : bands) {
-      while (!renderBand(band, bands.size() == 1)) batches_ = halved(batches_, device_.info());
+    for (const frame::Band& band : bands) {
+      while (!renderBand(band, bands.size() == 1)) batches_ = frame::halved(batches_, device_.info());
       tally_.endBand(band.begin == 0);
-      if (options_.readBack) readBand(d_, scene_, frame_.image);
+      if (options_.readBack) frame::readBand(d_, scene_, frame_.image);
     }
     tally_.counters["submitted"] = scene_.triangles.size();
     tally_.counters["bands"] = bands.size();
@@ -65,7 +65,7 @@ class FrameRun {
  private:
   /// False where a batch needs a buffer larger than the device's largest: the caller cuts the triangles finer and calls
   /// again. `only`: the frame has no other band.
-  bool renderBand(const Band& band, bool only) {
+  bool renderBand(const frame::Band& band, bool only) {
     if (!beginBand(band)) return false;
     const bool whole = only && batches_.size() == 1;
     d_.dispatchAll(plan::Moment::kBand);
@@ -81,11 +81,11 @@ class FrameRun {
     tally_.addTimes(visibility);
     tally_.addTimes(device_.takeTimes());
     tally_.count("batches", batches_.size());
-    if (whole && options_.keepStages) keepFrame(d_, scene_, *bins_, frame_.stages);
+    if (whole && options_.keepStages) frame::keepFrame(d_, scene_, *bins_, frame_.stages);
     return true;
   }
 
-  bool beginBand(const Band& band) {
+  bool beginBand(const frame::Band& band) {
     d_.set("rowBegin", band.begin);
     d_.set("rowEnd", band.end);
     d_.set("tilesX", static_cast<std::uint32_t>(plan::ceilDivide(scene_.width, settings_.tile)));
@@ -126,24 +126,24 @@ class FrameRun {
     useBatch(b);
     // A second pass over the only batch finds its pieces and bins as the first pass left them.
     if ((pass == 0 || batches_.size() > 1) && !prepareBatch(whole && pass == 0)) return false;
-    raster(d_, settings_, *bins_, b == 0);
+    frame::raster(d_, settings_, *bins_, b == 0);
     const bool last = pass + 1 == settings_.commit.passes;
     if (last || batches_.size() > 1) countBatch(last);  // else the counters go on over the passes
     return true;
   }
 
   bool prepareBatch(bool whole) {
-    if (!setUp(d_, settings_, tally_)) return false;
-    if (whole && options_.keepStages) keepSetup(d_, scene_, settings_, frame_.stages);
+    if (!frame::setUp(d_, settings_, tally_)) return false;
+    if (whole && options_.keepStages) frame::keepSetup(d_, scene_, settings_, frame_.stages);
     d_.allocateAll(plan::Extent::kTriangles);
     d_.dispatchAll(plan::Moment::kBatch);
-    BinsWork work{d_, tally_, settings_};
+    frame::BinsWork work{d_, tally_, settings_};
     return bins_->build(work);
   }
 
   void countBatch(bool all) {
-    tally_.take(KernelCounters(d_), all);
-    BinsWork work{d_, tally_, settings_};
+    tally_.take(frame::KernelCounters(d_), all);
+    frame::BinsWork work{d_, tally_, settings_};
     if (all) bins_->countEntries(work);
   }
 
@@ -155,9 +155,9 @@ class FrameRun {
     }
     for (const Stream* stream : interpolatedStreams(scene_)) {
       d_.set("components", stream->components);
-      d_.bind("attribute", bufferOf(*stream));
-      d_.bind("values", valuesBufferOf(*stream));
-      d_.allocate("values", valuesBufferOf(*stream));
+      d_.bind("attribute", frame::bufferOf(*stream));
+      d_.bind("values", frame::valuesBufferOf(*stream));
+      d_.allocate("values", frame::valuesBufferOf(*stream));
       for (std::size_t b = 0; b < batches_.size(); ++b) {
         useBatch(b);
         d_.dispatchAll(plan::Moment::kStreams);
@@ -165,28 +165,28 @@ class FrameRun {
     }
   }
 
-  Dispatcher& d_;
+  frame::Dispatcher& d_;
   Device& device_;
   const Scene& scene_;
   const FrameOptions& options_;
   const plan::Settings settings_;
-  const std::unique_ptr<Bins> bins_;
+  const std::unique_ptr<frame::Bins> bins_;
   Frame frame_;
-  Tally tally_;
-  std::vector<Batch> batches_, given_;  // given_: whose triangles the device has
+  frame::Tally tally_;
+  std::vector<frame::Batch> batches_, given_;  // given_: whose triangles the device has
 };
 
 }  // namespace
 
 Plan makePlan(const Scene& scene, const Variant& variant, const DeviceInfo& device) {
-  return plan::planFrame(scene, variant, device, [](std::string_view name) { return makeBins(name); });
+  return plan::planFrame(scene, variant, device, [](std::string_view name) { return frame::makeBins(name); });
 }
 
 struct Rasterizer::State {
-  Dispatcher dispatcher;
+  frame::Dispatcher dispatcher;
 };
 
-Rasterizer::Rasterizer(Device& device, KernelCache& kernels) : state_(new State{Dispatcher(device, kernels)}) {}
+Rasterizer::Rasterizer(Device& device, KernelCache& kernels) : state_(new State{frame::Dispatcher(device, kernels)}) {}
 Rasterizer::~Rasterizer() = default;
 
 Frame Rasterizer::render(const Scene& scene, const Variant& variant, const FrameOptions& options) {

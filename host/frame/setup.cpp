@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace tessera {
+namespace tessera::frame {
 
 bool setUp(Dispatcher& d, const plan::Settings& settings, Tally& tally) {
   const std::uint64_t triangles = d.get("triangleCount");
@@ -32,4 +32,4 @@ bool setUp(Dispatcher& d, const plan::Settings& settings, Tally& tally) {
   }
 }
 
-}  // namespace tessera
+}  // namespace tessera::frame

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace tessera {
+namespace tessera::frame {
 
 KernelCounters::KernelCounters(Dispatcher& dispatcher)
     : words_(dispatcher.read<std::uint32_t>("counters", 2 * kernelCounterCount())) {}
@@ -46,4 +46,4 @@ void Tally::addTimes(const std::vector<StageTime>& list) {
   }
 }
 
-}  // namespace tessera
+}  // namespace tessera::frame

@@ -11,7 +11,7 @@
 
 #include "host/frame/dispatcher.h"
 
-namespace tessera {
+namespace tessera::frame {
 
 /// The kernels' counters, as the buffer `counters` holds them.
 class KernelCounters {
@@ -53,4 +53,4 @@ class Tally {
   Counters band_;
 };
 
-}  // namespace tessera
+}  // namespace tessera::frame

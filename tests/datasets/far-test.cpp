@@ -88,7 +88,8 @@ void checkSame(const Scene& scene, const Scene& other) {
   CHECK(scene.triangles == other.triangles);
   CHECK(std::bit_cast<std::array<std::uint32_t, 16>>(scene.clipFromObject) ==
         std::bit_cast<std::array<std::uint32_t, 16>>(other.clipFromObject));
-  const Lighting light = lightingOf(scene.clipFromObject), otherLight = lightingOf(other.clipFromObject);
+  const frame::Lighting light = frame::lightingOf(scene.clipFromObject),
+                        otherLight = frame::lightingOf(other.clipFromObject);
   CHECK(light.light == otherLight.light);
   CHECK(light.eye == otherLight.eye);
 }

@@ -82,7 +82,7 @@ PLACE_TEST_CASE("An empty pixel is white and ids tell neighbours apart", "[shadi
 PLACE_TEST_CASE("Smooth normals are perspective-correct", "[shading]") {
   const Scene scene = nearTorus();
   const Framebuffer image = machine.render(scene, {{"shade", "smooth"}}).image;
-  const auto [light, eye] = lightingOf(scene.clipFromObject);
+  const auto [light, eye] = frame::lightingOf(scene.clipFromObject);
   std::size_t checked = 0, off = 0;
   for (std::size_t k = 0; k < image.pixels(); ++k) {
     if (image.ids[k] == kNoTriangle) continue;

@@ -29,10 +29,10 @@ std::string messageOf(Call call) {
 }
 
 /// A binning that asks for a stage that is not there.
-class Astray final : public Bins {
+class Astray final : public frame::Bins {
  public:
   std::vector<std::string> stages(const plan::Settings&) const override { return {"bin-astray"}; }
-  bool build(BinsWork&) override { return true; }
+  bool build(frame::BinsWork&) override { return true; }
   std::uint64_t largest() const override { return 0; }
 };
 
@@ -40,7 +40,7 @@ class Astray final : public Bins {
 
 TEST_CASE("An unknown stage or buffer or counter or binning is an error with its name") {
   Machine& machine = *machineAt<Cpu>();
-  Dispatcher dispatcher(machine.device(), machine.kernels());
+  frame::Dispatcher dispatcher(machine.device(), machine.kernels());
   using Catch::Contains;
   CHECK_THAT(messageOf([] { plan::stageOf("bin-astray"); }), Contains("bin-astray"));
   CHECK_THAT(messageOf([] { plan::bufferDoc("astray"); }), Contains("`astray`"));
@@ -50,7 +50,7 @@ TEST_CASE("An unknown stage or buffer or counter or binning is an error with its
   CHECK_THAT(messageOf([&] { dispatcher.dispatch("setup"); }), Contains("setup"));
   CHECK_THAT(messageOf([] { counterIndex("astray"); }), Contains("astray"));
   CHECK_THAT(messageOf([] { counterIndex("binned"); }), Contains("binned"));  // the host counts it
-  CHECK_THAT(messageOf([] { makeBins("astray"); }), Contains("binning=astray"));
+  CHECK_THAT(messageOf([] { frame::makeBins("astray"); }), Contains("binning=astray"));
   CHECK_THAT(messageOf([&] {
                plan::planFrame(Scene{}, {}, machine.info(),
                                [](std::string_view) { return std::make_unique<Astray>(); });
@@ -87,7 +87,7 @@ TEST_CASE("Every stage and every buffer of the lists has a name of its own and a
 TEST_CASE("Every binning of the axis has its host half") {
   for (const AxisValue& value : axis("binning").values) {
     INFO(value.name);
-    CHECK(makeBins(value.name) != nullptr);
-    CHECK(makeBins(value.name)->byTiles() == (value.name != "none"));
+    CHECK(frame::makeBins(value.name) != nullptr);
+    CHECK(frame::makeBins(value.name)->byTiles() == (value.name != "none"));
   }
 }

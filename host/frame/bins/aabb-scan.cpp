@@ -4,7 +4,7 @@
 
 #include "host/frame/bins/all-slots.h"
 
-namespace tessera {
+namespace tessera::frame {
 namespace {
 
 constexpr double kMostBoxes = 4294967296.0;  // that a frame looks at: some seconds on two cores
@@ -25,4 +25,4 @@ class AabbScan final : public AllSlots {
 
 std::unique_ptr<Bins> makeAabbScan() { return std::make_unique<AabbScan>(); }
 
-}  // namespace tessera
+}  // namespace tessera::frame

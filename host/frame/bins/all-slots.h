@@ -5,7 +5,7 @@
 
 #include "host/frame/bins/bins.h"
 
-namespace tessera {
+namespace tessera::frame {
 
 /// Bins in which the raster goes through all slots of the batch for each tile.
 class AllSlots : public Bins {
@@ -20,4 +20,4 @@ class AllSlots : public Bins {
   std::uint64_t slots_ = 0;
 };
 
-}  // namespace tessera
+}  // namespace tessera::frame

@@ -14,7 +14,7 @@
 #include "host/frame/tally.h"
 #include "host/plan/bins.h"
 
-namespace tessera {
+namespace tessera::frame {
 
 /// What a binning builds its bins with.
 struct BinsWork {
@@ -44,4 +44,4 @@ class Bins : public plan::BinsPlan {
 /// Makes the binning of a name. Throws kFailure where no binning has the name.
 std::unique_ptr<Bins> makeBins(std::string_view binning);
 
-}  // namespace tessera
+}  // namespace tessera::frame

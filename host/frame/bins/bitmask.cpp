@@ -6,7 +6,7 @@
 
 #include "host/frame/bins/all-slots.h"
 
-namespace tessera {
+namespace tessera::frame {
 namespace {
 
 constexpr double kMostMaskBytes = 4294967296.0;  // 4 GiB
@@ -45,4 +45,4 @@ class Bitmask final : public AllSlots {
 
 std::unique_ptr<Bins> makeBitmask() { return std::make_unique<Bitmask>(); }
 
-}  // namespace tessera
+}  // namespace tessera::frame

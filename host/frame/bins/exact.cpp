@@ -1,7 +1,7 @@
 // binning=exact: count the entries of each tile, then make room for exactly so many.
 #include "host/frame/bins/lists.h"
 
-namespace tessera {
+namespace tessera::frame {
 namespace {
 
 class Exact final : public Lists {
@@ -22,4 +22,4 @@ class Exact final : public Lists {
 
 std::unique_ptr<Bins> makeExact() { return std::make_unique<Exact>(); }
 
-}  // namespace tessera
+}  // namespace tessera::frame

@@ -7,7 +7,7 @@
 #include "host/frame/bins/bins.h"
 #include "host/support/suggest.h"
 
-namespace tessera {
+namespace tessera::frame {
 
 std::unique_ptr<Bins> makeNone();
 std::unique_ptr<Bins> makeAabbScan();
@@ -40,4 +40,4 @@ std::unique_ptr<Bins> makeBins(std::string_view name) {
                    support::whatThereIs(name, support::namesOf(binnings(), &Binning::name))));
 }
 
-}  // namespace tessera
+}  // namespace tessera::frame

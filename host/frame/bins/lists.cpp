@@ -4,7 +4,7 @@
 
 #include "host/frame/bins/prefix-sum.h"
 
-namespace tessera {
+namespace tessera::frame {
 namespace {
 
 std::vector<std::uint32_t> tileCounts(Dispatcher& d) {
@@ -56,4 +56,4 @@ void Lists::countEntries(BinsWork& work) {
   work.tally.count("binned", *binned_);
 }
 
-}  // namespace tessera
+}  // namespace tessera::frame

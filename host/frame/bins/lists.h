@@ -6,7 +6,7 @@
 
 #include "host/frame/bins/bins.h"
 
-namespace tessera {
+namespace tessera::frame {
 
 /// Bins that are lists of slots.
 class Lists : public Bins {
@@ -25,4 +25,4 @@ class Lists : public Bins {
   std::optional<std::uint64_t> binned_;  // entries of the batch; nothing: in queues, not counted yet
 };
 
-}  // namespace tessera
+}  // namespace tessera::frame

@@ -1,7 +1,7 @@
 // binning=none: no bins. A lane rasterises a work item, and commits by atomics.
 #include "host/frame/bins/bins.h"
 
-namespace tessera {
+namespace tessera::frame {
 namespace {
 
 class None final : public Bins {
@@ -15,4 +15,4 @@ class None final : public Bins {
 
 std::unique_ptr<Bins> makeNone() { return std::make_unique<None>(); }
 
-}  // namespace tessera
+}  // namespace tessera::frame

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace tessera {
+namespace tessera::frame {
 namespace {
 
 std::string in(std::size_t level) { return level == 0 ? "tileCounts" : fmt::format("sums {}", level); }
@@ -38,4 +38,4 @@ void sumTileCounts(Dispatcher& d) {
   }
 }
 
-}  // namespace tessera
+}  // namespace tessera::frame

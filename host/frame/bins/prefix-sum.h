@@ -3,7 +3,7 @@
 
 #include "host/frame/dispatcher.h"
 
-namespace tessera {
+namespace tessera::frame {
 
 /// Computes for each tile t
 ///
@@ -12,4 +12,4 @@ namespace tessera {
 /// and puts the sum of all counts behind the offset of the last tile.
 void sumTileCounts(Dispatcher& dispatcher);
 
-}  // namespace tessera
+}  // namespace tessera::frame

@@ -4,7 +4,7 @@
 
 #include "host/frame/bins/lists.h"
 
-namespace tessera {
+namespace tessera::frame {
 namespace {
 
 class Queue final : public Lists {
@@ -54,4 +54,4 @@ class Queue final : public Lists {
 
 std::unique_ptr<Bins> makeQueue() { return std::make_unique<Queue>(); }
 
-}  // namespace tessera
+}  // namespace tessera::frame

@@ -1,7 +1,7 @@
 // binning=reverse: no bins. Each tile looks at every piece, the last one first.
 #include "host/frame/bins/bins.h"
 
-namespace tessera {
+namespace tessera::frame {
 namespace {
 
 class Reverse final : public Bins {
@@ -20,4 +20,4 @@ class Reverse final : public Bins {
 
 std::unique_ptr<Bins> makeReverse() { return std::make_unique<Reverse>(); }
 
-}  // namespace tessera
+}  // namespace tessera::frame
