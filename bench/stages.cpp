@@ -59,7 +59,7 @@ Scene sceneOf(const StageBench& bench, const std::string& name, std::uint32_t si
   const auto known = std::ranges::find(bench::scenes(), clipSpace ? name.substr(11) : name, &bench::BenchScene::name);
   Scene scene = bench::load(*known, size, size);
   if (clipSpace) {
-    scene.clip = reference::transform(scene);
+    scene.clip = oracle::transform(scene);
     scene.positions.clear();
     scene.streams.clear();
   }

@@ -35,7 +35,7 @@ TEST_CASE("the draw covers the oracle's pixels on lavapipe") {
   const Scene scene = soup(40, 301, 203);
   DrawBaseline baseline(scene, "llvmpipe", true);
   const Framebuffer drawn = baseline.framebuffer();
-  const Framebuffer expected = reference::render(scene).image;
+  const Framebuffer expected = oracle::render(scene).image;
   REQUIRE(drawn.ids.size() == expected.ids.size());
   std::size_t coverage = 0, ids = 0, depths = 0, covered = 0;
   for (std::size_t i = 0; i < drawn.ids.size(); ++i) {

@@ -138,7 +138,7 @@ struct DrawBaseline::State {
         pool(machine->device, {{}, machine->adapter.queueFamily}),
         fence(machine->device, vk::FenceCreateInfo()),
         timestamps(machine->device, {{}, vk::QueryType::eTimestamp, 2}) {
-    const auto clip = reference::transform(scene);
+    const auto clip = oracle::transform(scene);
     vertexData = upload(clip.data(), clip.size() * sizeof clip[0], vk::BufferUsageFlagBits::eVertexBuffer);
     indexData = upload(scene.triangles.data(), std::size_t{indices} * 4, vk::BufferUsageFlagBits::eIndexBuffer);
   }

@@ -113,14 +113,14 @@ class Meter {
     times.frame = secondsOf([&] { rasterizer.render(scene, cell.asked, {.readBack = false}); });
     if (scene.attribute() != nullptr)
       times.attribute =
-          secondsOf([&] { reference::attributeError(scene, imageAxesOf(frame.plan.resolved), frame.image); });
+          secondsOf([&] { oracle::attributeError(scene, oracle::imageAxesOf(frame.plan.resolved), frame.image); });
     return times;
   }
 
   /// One of the oracle's images at this scene and size; measured once.
   double oracle(const SweepPoint& cell) {
     const auto [entry, isNew] = oracles_.try_emplace({cell.scene, cell.size.width, cell.size.height});
-    if (isNew) entry->second = secondsOf([&] { reference::render(load(cell), imageAxesOf(cell.asked)); });
+    if (isNew) entry->second = secondsOf([&] { oracle::render(load(cell), oracle::imageAxesOf(cell.asked)); });
     return entry->second;
   }
 

@@ -89,7 +89,7 @@ void measureError(Run& run, const Framebuffer& image) {
     run.hitCountNotOne =
         static_cast<std::uint64_t>(std::ranges::count_if(image.hits, [](std::uint32_t hits) { return hits > 1; }));
   if (!image.channels.empty())
-    run.attributeError = reference::attributeError(*run.scene, imageAxesOf(run.variant), image);
+    run.attributeError = oracle::attributeError(*run.scene, oracle::imageAxesOf(run.variant), image);
 }
 
 std::string frameLabel(const Run& run) {

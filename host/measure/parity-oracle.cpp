@@ -9,7 +9,7 @@
 
 namespace tessera {
 Oracle::Oracle(const Scene& scene, const Variant& variant)
-    : image_(reference::render(scene, imageAxesOf(variant)).image) {}
+    : image_(oracle::render(scene, oracle::imageAxesOf(variant)).image) {}
 
 Difference Oracle::against(const Framebuffer& frame) const { return compare(expected(frame), frame); }
 

@@ -43,7 +43,7 @@ ValueRange rangeOf(const Run& run) {
 }
 
 std::string attributeLine(const Run& run) {
-  const reference::AttributeError& error = *run.attributeError;
+  const oracle::AttributeError& error = *run.attributeError;
   const std::string& name = run.scene->attribute()->name;
   if (error.pixels == 0) return fmt::format("attribute {}: no pixel has a value\n", name);
   const ValueRange range = rangeOf(run);

@@ -30,7 +30,7 @@ struct Run {
   std::optional<Difference> difference;         ///< from the oracle
   std::optional<std::uint64_t> wrongWinners;    ///< pixels whose triangle is not the oracle's: by id, else by colour
   std::optional<std::uint64_t> hitCountNotOne;  ///< pixels that are hit, but not once; of commit=count
-  std::optional<reference::AttributeError> attributeError;  ///< from the exact value
+  std::optional<oracle::AttributeError> attributeError;     ///< from the exact value
   std::optional<ValueRange> attributeRange;                 ///< that was asked for
   Counters counters;
   std::vector<PlanEntry> plan;

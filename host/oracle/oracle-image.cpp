@@ -2,10 +2,10 @@
 
 #include <string>
 
-namespace tessera {
+namespace tessera::oracle {
 
-reference::ImageAxes imageAxesOf(const Variant& variant) {
-  using namespace reference;
+ImageAxes imageAxesOf(const Variant& variant) {
+  using namespace oracle;
   const std::string cull = variant.get("cull"), interpolate = variant.get("interpolate");
   return {.cull = cull == "back"    ? Cull::kBack
                   : cull == "front" ? Cull::kFront
@@ -17,4 +17,4 @@ reference::ImageAxes imageAxesOf(const Variant& variant) {
           .subPixelBits = std::stoi(variant.get("sub-pixel", "8"))};
 }
 
-}  // namespace tessera
+}  // namespace tessera::oracle

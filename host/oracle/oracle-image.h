@@ -4,9 +4,9 @@
 #include <tessera/oracle.h>
 #include <tessera/variant.h>
 
-namespace tessera {
+namespace tessera::oracle {
 
 /// The image axes of a variant; an axis that is not set has its default.
-reference::ImageAxes imageAxesOf(const Variant& variant);
+ImageAxes imageAxesOf(const Variant& variant);
 
-}  // namespace tessera
+}  // namespace tessera::oracle

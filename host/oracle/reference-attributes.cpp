@@ -12,7 +12,7 @@
 #include "host/oracle/reference-exact.h"
 #include "host/oracle/reference-project.h"
 
-namespace tessera::reference {
+namespace tessera::oracle {
 namespace {
 
 const float kNoValue = std::bit_cast<float>(0x7fc00000u);
@@ -182,4 +182,4 @@ AttributeError attributeError(const Scene& scene, const ImageAxes& axes, const F
   return error;
 }
 
-}  // namespace tessera::reference
+}  // namespace tessera::oracle

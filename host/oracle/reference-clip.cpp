@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace tessera::reference {
+namespace tessera::oracle {
 namespace {
 
 // I. E. Sutherland, G. W. Hodgman: Reentrant Polygon Clipping, CACM 17(1), 1974.
@@ -92,4 +92,4 @@ Clipped clip(const std::array<glm::vec4, 3>& triangle, std::uint32_t width, std:
   return result;
 }
 
-}  // namespace tessera::reference
+}  // namespace tessera::oracle

@@ -6,7 +6,7 @@
 #include <glm/vec4.hpp>
 #include <vector>
 
-namespace tessera::reference {
+namespace tessera::oracle {
 
 struct Clipped {
   /// To be fanned from its first vertex; empty when nothing is inside, else 3 corners or more. In real numbers 9 at
@@ -19,4 +19,4 @@ struct Clipped {
 /// `width` and `height` in pixels; the vertices are finite.
 Clipped clip(const std::array<glm::vec4, 3>& triangle, std::uint32_t width, std::uint32_t height);
 
-}  // namespace tessera::reference
+}  // namespace tessera::oracle

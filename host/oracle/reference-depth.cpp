@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
-namespace tessera::reference {
+namespace tessera::oracle {
 namespace {
 
 constexpr int kCell = 8;  // pixels
@@ -58,4 +58,4 @@ Exact exactDepth(const Piece& t, std::int64_t i, std::int64_t j) {
   return (w0 * t.z[0] + w1 * t.z[1] + w2 * t.z[2]) / (w0 + w1 + w2);
 }
 
-}  // namespace tessera::reference
+}  // namespace tessera::oracle

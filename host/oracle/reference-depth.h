@@ -5,7 +5,7 @@
 
 #include "host/oracle/reference-exact.h"
 
-namespace tessera::reference {
+namespace tessera::oracle {
 
 /// Depth of one piece in float32, in the stated order. Every integer difference below 2^25 is rounded once on its way
 /// to float32.
@@ -30,4 +30,4 @@ class Depth {
 /// Depth of the snapped piece at a covered sample, right to about 2^-112 of itself.
 Exact exactDepth(const Piece& piece, std::int64_t i, std::int64_t j);
 
-}  // namespace tessera::reference
+}  // namespace tessera::oracle

@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-namespace tessera::reference {
+namespace tessera::oracle {
 
 __extension__ typedef __int128 Wide;  // products of edge functions stay below 2^60; 128 bits leave no bound to prove
 #ifdef __SIZEOF_FLOAT128__
@@ -21,4 +21,4 @@ inline Wide edge(const Piece& t, int a, int b, Wide px, Wide py) {
   return Wide{t.x[b] - t.x[a]} * (py - t.y[a]) - Wide{t.y[b] - t.y[a]} * (px - t.x[a]);
 }
 
-}  // namespace tessera::reference
+}  // namespace tessera::oracle

@@ -9,7 +9,7 @@
 #include "host/oracle/reference-clip.h"
 #include "host/oracle/reference-project.h"
 
-namespace tessera::reference {
+namespace tessera::oracle {
 namespace {
 
 bool isFinite(const glm::vec4& v) {
@@ -113,4 +113,4 @@ std::vector<Piece> pieces(const Scene& scene, const ImageAxes& axes, Counts* cou
   return result;
 }
 
-}  // namespace tessera::reference
+}  // namespace tessera::oracle

@@ -7,7 +7,7 @@
 #include <glm/vec4.hpp>
 #include <optional>
 
-namespace tessera::reference {
+namespace tessera::oracle {
 
 struct Snapped {
   std::int32_t x, y;  ///< 1/256 pixel, |.| <= 2^24
@@ -17,4 +17,4 @@ struct Snapped {
 /// Of a finite clip-space position. Nothing where the contract counts the piece as behind.
 std::optional<Snapped> project(const glm::vec4& v, const Scene& scene, const ImageAxes& axes);
 
-}  // namespace tessera::reference
+}  // namespace tessera::oracle

@@ -7,7 +7,7 @@
 #include "host/oracle/reference-depth.h"
 #include "host/oracle/reference-exact.h"
 
-namespace tessera::reference {
+namespace tessera::oracle {
 namespace {
 
 bool isTopOrLeft(const Piece& t, int a, int b) { return (t.y[b] == t.y[a] && t.x[b] > t.x[a]) || t.y[b] < t.y[a]; }
@@ -104,4 +104,4 @@ Result render(const Scene& scene, const ImageAxes& axes, bool measureDepth) {
   return result;
 }
 
-}  // namespace tessera::reference
+}  // namespace tessera::oracle

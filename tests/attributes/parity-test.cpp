@@ -54,7 +54,7 @@ CHECKED_PLACE_TEST_CASE("Values of random scenes have the oracle's bits", "[attr
     addValues(scene, seed);
     const Variant& variant = variants[seed % count];
     CAPTURE(scene.name, seed, variant.text());
-    const reference::Result oracle = reference::render(scene, imageAxesOf(variant));
+    const oracle::Result oracle = oracle::render(scene, oracle::imageAxesOf(variant));
     const Frame frame = machine.render(scene, variant);
     REQUIRE(valuesOf(frame.image).size() == frame.image.pixels());
     const std::string different = difference(frame, oracle);
@@ -70,7 +70,7 @@ TEST_CASE("Values do not depend on how the host cuts a frame", "[attributes]") {
   append(scene, generateMesh("soup?count=1000&pixels=8000"));
   scene.clipFromObject = {1.7f, 0.3f, 0, 0.2f, 0.1f, -2.1f, 0.4f, 0, 0.2f, 0.3f, -1.01f, 0.6f, 0.2f, 0.3f, -1, 0.8f};
   for (const glm::vec3& p : scene.positions) attributeOf(scene).push_back(p.x + p.y);
-  const reference::Result oracle = reference::render(scene);
+  const oracle::Result oracle = oracle::render(scene);
   Machine cut("cut", "cpp", makeCutDevice(makeCpuDevice(), 80000, 0));
   for (const char* const binning : {"exact", "none"}) {
     const Frame frame = cut.render(scene, {{"binning", binning}});

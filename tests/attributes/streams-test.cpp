@@ -77,7 +77,7 @@ PLACE_TEST_CASE("Streams of one to four floats have the oracle's bits, whole and
     addStreams(scene, seed);
     const Frame frame = machine.render(scene);
     INFO(scene.name);
-    CHECK(difference(frame, reference::render(scene)) == "");
+    CHECK(difference(frame, oracle::render(scene)) == "");
     REQUIRE(frame.image.channels.size() == 4);
     for (std::size_t i = 0; i < 4; ++i) {
       CHECK(frame.image.channels[i].name == scene.streams[i].name);
@@ -91,7 +91,7 @@ PLACE_TEST_CASE("Streams of one to four floats have the oracle's bits, whole and
   const Frame frame = rasterizer.render(scene);
   CHECK(frame.counters.at("batches") > 1);
   CHECK(frame.counters.at("bands") > 1);
-  CHECK(difference(frame, reference::render(scene)) == "");
+  CHECK(difference(frame, oracle::render(scene)) == "");
 }
 
 CHECKED_PLACE_TEST_CASE("Borrowed arrays are read in place, within their bounds, with the bits of owned ones",
@@ -120,16 +120,16 @@ CHECKED_PLACE_TEST_CASE("Borrowed arrays are read in place, within their bounds,
 PLACE_TEST_CASE("Nothing of a borrowed array is kept when render returns", "[attributes]") {
   const Scene first = loadInput("generate:soup?count=300&pixels=200&seed=1", 80, 80),
               second = loadInput("generate:soup?count=300&pixels=200&seed=2", 80, 80);
-  std::vector<glm::vec4> clip(reference::transform(first));
+  std::vector<glm::vec4> clip(oracle::transform(first));
   Scene scene;
   scene.width = scene.height = 80;
   scene.triangles = first.triangles;
   scene.clip = Array<glm::vec4>::borrow(clip);
   const Frame before = machine.render(scene);
-  std::ranges::copy(reference::transform(second), clip.begin());  // at the same address
+  std::ranges::copy(oracle::transform(second), clip.begin());  // at the same address
   scene.triangles = second.triangles;
   const Frame after = machine.render(scene);
-  CHECK(difference(after, reference::render(scene)) == "");
+  CHECK(difference(after, oracle::render(scene)) == "");
   CHECK(difference(after.image, before.image) != "");
 }
 
@@ -215,7 +215,7 @@ TEST_CASE("Channels of several streams come back from a file", "[attributes]") {
   Scene scene = loadInput("generate:icosphere?level=2", 50, 40);
   addStreams(scene, 1);
   scene.makeStream("dotted.x", 1, true).values.assign(scene.vertexCount(), 2);
-  const Framebuffer made = reference::render(scene).image;
+  const Framebuffer made = oracle::render(scene).image;
   Framebuffer frame = made;
   frame.hits.clear();
   const auto path = folder.path() / "streams.exr";

@@ -14,7 +14,7 @@
 #include "tests/support/streams.h"
 
 using namespace tessera;
-using reference::Fill, reference::ImageAxes;
+using oracle::Fill, oracle::ImageAxes;
 
 namespace {
 
@@ -47,12 +47,12 @@ TEST_CASE("Linear on the screen without perspective and by the plane's own coord
   // A ramp of 0 to 8 over 8 pixels; the vertices reach beyond the raster.
   Scene ramp = inPixels(8, 2, {{0, 0}, {8, 0}, {0, 8}, {8, 8}}, {{0, 2, 1}, {1, 2, 3}});
   attributeOf(ramp) = {0, 8, 0, 8};
-  const auto flat = reference::render(ramp);
+  const auto flat = oracle::render(ramp);
   for (std::uint32_t k = 0; k < 16; ++k) CHECK(valuesOf(flat.image)[k] == static_cast<float>(k % 8) + 0.5f);
-  CHECK(reference::attributeError(ramp, {}, flat.image).max == 0);
+  CHECK(oracle::attributeError(ramp, {}, flat.image).max == 0);
   // The right side three times as far: at screen position s of 0 to 1 the value is 8 (s/3) / ((1 - s) + s/3).
   for (const int v : {1, 3}) ramp.clip[v] *= 3.0f;
-  const auto steep = reference::render(ramp);
+  const auto steep = oracle::render(ramp);
   for (std::uint32_t k = 0; k < 16; ++k) {
     const double s = (k % 8 + 0.5) / 8;
     CHECK(valuesOf(steep.image)[k] == Approx(8 * (s / 3) / ((1 - s) + s / 3)).epsilon(1e-6));
@@ -69,8 +69,8 @@ TEST_CASE("Errors without perspective are within six roundings of the largest va
     for (int k = 0; k < 3; ++k) v.push_back({32 + uniform(size) - uniform(size), 32 + uniform(size) - uniform(size)});
     Scene scene = inPixels(64, 64, v, {{0, 1, 2}});
     for (int k = 0; k < 3; ++k) attributeOf(scene).push_back(uniform(200) - 100);
-    const auto result = reference::render(scene);
-    const auto error = reference::attributeError(scene, {}, result.image);
+    const auto result = oracle::render(scene);
+    const auto error = oracle::attributeError(scene, {}, result.image);
     const auto [least, most] = std::ranges::minmax(attributeOf(scene));
     const double bound = 6 * kUnit * std::max(std::abs(least), std::abs(most)) * 1.001;
     CHECK(error.max <= bound);
@@ -83,23 +83,23 @@ TEST_CASE("Errors without perspective are within six roundings of the largest va
 TEST_CASE("The error of a raster of values is that of its values", "[attributes]") {
   Scene ramp = inPixels(4, 1, {{0, 0}, {4, 0}, {0, 4}, {4, 4}}, {{0, 2, 1}, {1, 2, 3}});
   attributeOf(ramp) = {0, 4, 0, 4};
-  Framebuffer frame = reference::render(ramp).image;
+  Framebuffer frame = oracle::render(ramp).image;
   valuesOf(frame)[1] += 0.25f;
   valuesOf(frame)[2] -= 0.5f;
-  const auto error = reference::attributeError(ramp, {}, frame);
+  const auto error = oracle::attributeError(ramp, {}, frame);
   CHECK(error.pixels == 4);
   CHECK(error.max == 0.5);
   CHECK(error.rms == Approx(std::sqrt((0.0625 + 0.25) / 4)));
   valuesOf(frame)[0] = std::nanf("");
-  CHECK(std::isinf(reference::attributeError(ramp, {}, frame).max));
+  CHECK(std::isinf(oracle::attributeError(ramp, {}, frame).max));
 }
 
 PLACE_TEST_CASE("A height field of integer vertices has each vertex' value at its pixel", "[attributes]") {
-  const ImageAxes cells{.fill = Fill::kInclusive, .subPixelBits = 0};
+  const oracle::ImageAxes cells{.fill = oracle::Fill::kInclusive, .subPixelBits = 0};
   for (const auto& [columns, rows] : {std::pair{64u, 64u}, {97u, 31u}, {2u, 200u}, {333u, 5u}}) {
     const Scene scene = heightField(columns, rows);
     INFO(columns << " x " << rows);
-    const Framebuffer oracle = reference::render(scene, cells).image;
+    const Framebuffer oracle = oracle::render(scene, cells).image;
     CHECK(valuesOf(oracle) == attributeOf(scene));  // to the outermost row and column
     const Framebuffer image = machine.render(scene, {{"fill", "inclusive"}, {"sub-pixel", "0"}}).image;
     CHECK(valuesOf(image) == attributeOf(scene));

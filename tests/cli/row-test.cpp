@@ -63,7 +63,7 @@ TEST_CASE("A row holds errors with an oracle and without") {
   Run run;
   run.scene = &scene;
   run.hitCountNotOne = 3;
-  run.attributeError = reference::AttributeError{.max = 0.5, .rms = 0.25, .pixels = 1};
+  run.attributeError = oracle::AttributeError{.max = 0.5, .rms = 0.25, .pixels = 1};
   run.attributeRange = ValueRange{-1, 2};
   const auto row = nlohmann::json::parse(rowText(run));
   CHECK(row["error"] == nlohmann::json{{"hit_count_not_one", 3}, {"attribute_max", 0.5}, {"attribute_rms", 0.25}});

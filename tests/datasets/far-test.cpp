@@ -229,7 +229,7 @@ double distanceToSegment(const glm::dvec2& p, const glm::dvec2& a, const glm::dv
 
 /// Differing samples between two pictures of one scene, each of which must lie within the bound of an edge.
 int checkNear(const Scene& here, const Scene& far) {
-  const auto a = reference::render(here).image.ids, b = reference::render(far).image.ids;
+  const auto a = oracle::render(here).image.ids, b = oracle::render(far).image.ids;
   const Seen from = seen(here), to = seen(far);
   const double bound = from.bound + to.bound;
   CHECK(bound < 0.02);
@@ -280,7 +280,7 @@ TEST_CASE("A grid at UTM coordinates covers what the same grid covers near 0") {
       grid.triangles.push_back({a, a + 1, a + 33});
       grid.triangles.push_back({a + 1, a + 34, a + 33});
     }
-  const auto draw = [&](const std::string& path) { return reference::render(loadInput(path, 256, 256)).image.ids; };
+  const auto draw = [&](const std::string& path) { return oracle::render(loadInput(path, 256, 256)).image.ids; };
   const auto here = draw(files.write("here.off", off(grid, glm::dvec3(0))));
   const auto far = draw(files.write("far.off", off(grid, glm::dvec3(500000, 4500000, 0))));
   const auto float32 = draw(files.write("float32.ply", plyFloat32(grid, glm::dvec3(500000, 4500000, 0))));
@@ -319,7 +319,7 @@ TEST_CASE("A replay of a far scene is the same picture") {
   writeReplay(files.path("far.replay"), scene);
   const Scene back = loadInput(files.path("far.replay"));
   CHECK(attributeOf(back) == attributeOf(scene));
-  CHECK(back.clip == reference::transform(scene));
+  CHECK(back.clip == oracle::transform(scene));
 }
 
 TEST_CASE("How coarse float32 is for an input is said where it matters") {

@@ -72,7 +72,7 @@ TEST_CASE("A frame on a registered kind is the other devices' bit for bit and it
     CHECK(log->dispatches[stage] > 0);
     CHECK(std::ranges::count(log->kernels, stage) == 1);
   }
-  CHECK(difference(mirrored, reference::render(s, imageAxesOf(variant))) == "");
+  CHECK(difference(mirrored, oracle::render(s, oracle::imageAxesOf(variant))) == "");
   for (const std::string other : {"cpu", "vulkan"}) {
     INFO(other);
     CHECK(difference(mirrored.image, frameOn(other).image) == "");

@@ -42,7 +42,7 @@ bool isOutline(const Framebuffer& frame, const Scene& scene) {
 int main(int count, char** arguments) try {
   const std::string what = count > 1 ? arguments[1] : "";
   const Scene scene = soup();
-  const Framebuffer oracle = reference::render(scene, imageAxesOf({})).image;
+  const Framebuffer oracle = oracle::render(scene, oracle::imageAxesOf({})).image;
   for (const char* name : {"cpu", "vulkan"}) {
     const auto device = openDevice(name);
     KernelCache kernels;

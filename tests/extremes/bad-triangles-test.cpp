@@ -23,7 +23,7 @@ constexpr float kLargest = std::numeric_limits<float>::max();
 /// A sphere in clip space, 200 x 150.
 Scene goodScene() {
   Scene scene = loadInput("generate:icosphere?level=3", 200, 150);
-  scene.clip = reference::transform(scene);
+  scene.clip = oracle::transform(scene);
   scene.positions.clear();
   dropNormals(scene);
   return scene;
@@ -45,8 +45,8 @@ void checkDropped(Machine& machine, const std::vector<std::array<glm::vec4, 3>>&
     scene.clip.own().insert(scene.clip.own().end(), corners.begin(), corners.end());
     scene.triangles.push_back({first, first + 1, first + 2});
   }
-  const reference::Result oracle = reference::render(scene);
-  CHECK(difference(oracle.image, reference::render(good).image) == "");
+  const oracle::Result oracle = oracle::render(scene);
+  CHECK(difference(oracle.image, oracle::render(good).image) == "");
   for (const Variant& variant : paths(machine.info())) {
     INFO(counter << ", " << variant.text());
     const Frame before = machine.render(good, variant), frame = machine.render(scene, variant);
@@ -70,7 +70,7 @@ CHECKED_PLACE_TEST_CASE("Indices out of range are dropped and counted", "[extrem
       t[corner] = index;
       scene.triangles.push_back(t);
     }
-  const reference::Result oracle = reference::render(scene);
+  const oracle::Result oracle = oracle::render(scene);
   CHECK(oracle.counts.badIndex == bad);
   for (const Variant& variant : paths(machine.info())) {
     INFO(variant.text());
@@ -105,7 +105,7 @@ CHECKED_PLACE_AND_SWIFTSHADER_TEST_CASE("Triangles without area are dropped and 
                 {glm::vec4(0, 0, 0, 1), glm::vec4(0.5f, 0, 0, 1), glm::vec4(1, 0, 0, 1)}},
                "zeroArea");
   Scene scene = goodScene();
-  const reference::Result good = reference::render(scene);
+  const oracle::Result good = oracle::render(scene);
   scene.triangles.push_back({5, 5, 9});
   scene.triangles.push_back({5, 9, 5});
   scene.triangles.push_back({9, 5, 5});
@@ -152,7 +152,7 @@ CHECKED_PLACE_TEST_CASE("Object space that is not finite is dropped and counted"
   scene.positions[40].y = kInfinity;
   scene.positions[90].z = -kLargest;  // the matrix takes it beyond float32
   scene.clipFromObject[10] *= 4;
-  const reference::Result oracle = reference::render(scene);
+  const oracle::Result oracle = oracle::render(scene);
   CHECK(oracle.counts.nonFinite > 10);
   CHECK(oracle.counts.covered > 1000);
   for (const Variant& variant : paths(machine.info())) {
@@ -164,7 +164,7 @@ CHECKED_PLACE_TEST_CASE("Object space that is not finite is dropped and counted"
     none.clipFromObject[15] = value;
     const Frame frame = machine.render(none);
     CHECK(frame.counters.at("nonFinite") == none.triangles.size());
-    CHECK(difference(frame, reference::render(none)) == "");
+    CHECK(difference(frame, oracle::render(none)) == "");
   }
 }
 
@@ -174,6 +174,6 @@ CHECKED_PLACE_TEST_CASE("Random scenes stay within bounds", "[extremes]") {
     const Scene scene = randomScene(seed);
     const Variant& variant = variants[seed % variants.size()];
     INFO(scene.name << ", " << variant.text());
-    CHECK(difference(machine.render(scene, variant), reference::render(scene)) == "");
+    CHECK(difference(machine.render(scene, variant), oracle::render(scene)) == "");
   }
 }

@@ -28,7 +28,7 @@ void checkEmpty(Machine& machine, const Scene& scene) {
     CHECK(std::ranges::all_of(frame.image.ids, [](std::uint32_t id) { return id == kNoTriangle; }));
     CHECK(std::ranges::all_of(frame.image.depth, [](float z) { return z == 1.0f; }));
     CHECK(std::ranges::all_of(frame.image.colour, [](const glm::vec3& c) { return c == glm::vec3(1, 1, 1); }));
-    CHECK(difference(frame, reference::render(scene)) == "");
+    CHECK(difference(frame, oracle::render(scene)) == "");
   }
   const Frame hits = machine.render(scene, {{"commit", "count"}});
   CHECK(hits.image.hits == std::vector<std::uint32_t>(hits.image.pixels(), 0));
@@ -64,7 +64,7 @@ CHECKED_PLACE_TEST_CASE("A frame does not see the one before", "[extremes]") {
   for (const Variant& variant : paths(machine)) {
     INFO(variant.text());
     const Frame first = machine.render(full, variant);
-    CHECK(difference(machine.render(empty, variant), reference::render(empty)) == "");
+    CHECK(difference(machine.render(empty, variant), oracle::render(empty)) == "");
     const Frame again = machine.render(full, variant);
     CHECK(difference(again.image, first.image) == "");
     CHECK(again.counters == first.counters);

@@ -42,7 +42,7 @@ void checkScaled(Machine& machine, Exponent exponent) {
   std::uint64_t clipped = 0, covered = 0;
   for (std::uint64_t seed = 0; seed < kScenes; ++seed) {
     const Scene scene = scaledScene(seed, exponent);
-    const reference::Result oracle = reference::render(scene);
+    const oracle::Result oracle = oracle::render(scene);
     clipped += oracle.counts.clipped;
     covered += oracle.counts.covered;
     const Variant& variant = variants[seed % variants.size()];
@@ -90,7 +90,7 @@ CHECKED_PLACE_TEST_CASE("Polygons that rounding bends keep all their corners", "
       v = glm::vec4(glm::dvec4(side(guard * w), side(guard * w), random.unit() < 0.5 ? 0 : w, w));
       for (int i = 0; i < 4; ++i) v[i] = static_cast<float>(v[i] * (1 + random.between(-3, 3) * 0x1p-23));
     }
-    if (reference::clip(t, scene.width, scene.height).polygon.size() < 10) continue;
+    if (oracle::clip(t, scene.width, scene.height).polygon.size() < 10) continue;
     const auto first = static_cast<std::uint32_t>(scene.clip.size());
     scene.clip.own().insert(scene.clip.own().end(), t.begin(), t.end());
     scene.triangles.push_back({first, first + 1, first + 2});
@@ -99,6 +99,6 @@ CHECKED_PLACE_TEST_CASE("Polygons that rounding bends keep all their corners", "
   CHECK(scene.triangles.size() == 40);
   for (const Variant& variant : combinations({"binning"}, machine.info())) {
     INFO(variant.text());
-    CHECK(difference(machine.render(scene, variant), reference::render(scene)) == "");
+    CHECK(difference(machine.render(scene, variant), oracle::render(scene)) == "");
   }
 }

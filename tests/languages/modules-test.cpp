@@ -107,7 +107,7 @@ TEST_CASE("A kernel that imports all modules that are listed for its stage gives
     for (const char* const route : {"cpp", "spirv"}) {
       INFO(stage << " on " << route);
       Machine machine = machineWith(route, {{stage, file}});
-      CHECK(difference(machine.render(smallScene(), {}), reference::render(smallScene(), {})) == "");
+      CHECK(difference(machine.render(smallScene(), {}), oracle::render(smallScene(), {})) == "");
     }
   }
 }

@@ -22,7 +22,7 @@ TEST_CASE("Transform by hand in GLSL gives the bits of the oracle on random scen
     if (scene.positions.empty()) continue;  // given in clip space: nothing to transform
     const Variant image{{"sub-pixel", bits[scenes % bits.size()].name}};
     INFO(scene.name << ", " << image.text());
-    CHECK(difference(machine.render(scene, image), reference::render(scene, imageAxesOf(image))) == "");
+    CHECK(difference(machine.render(scene, image), oracle::render(scene, oracle::imageAxesOf(image))) == "");
     ++scenes;
   }
 }

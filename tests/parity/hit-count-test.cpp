@@ -20,7 +20,7 @@ struct Region {
 };
 
 void checkHits(Machine& machine, const Scene& scene, const Region& region, const std::vector<Variant>& paths) {
-  const reference::Result oracle = reference::render(scene);
+  const oracle::Result oracle = oracle::render(scene);
   for (const Variant& path : paths) {
     const Variant variant = axes::joined(path, {{"commit", "count"}});
     INFO(scene.name << ", " << variant.text());

@@ -22,7 +22,7 @@ struct Size {
 void checkAt(Machine& machine, const std::string& input, Size size, const Variant& variant = {}) {
   INFO(fmt::format("{}, {} x {}, {}", input, size.width, size.height, variant.text()));
   const Scene scene = loadInput(input, size.width, size.height);
-  CHECK(difference(machine.render(scene, variant), reference::render(scene)) == "");
+  CHECK(difference(machine.render(scene, variant), oracle::render(scene)) == "");
 }
 
 std::vector<Size> sizesFor(const Machine& machine) {
@@ -68,7 +68,7 @@ PLACE_TEST_CASE("Each implementation value alone has the oracle's bits on a mesh
                                    std::string(software ? "generate:hot?count=1000" : "generate:hot?count=50000"),
                                    std::string(software ? "generate:fan?count=1000" : "generate:fan?count=20000")}) {
     const Scene scene = loadInput(input, extent, extent);
-    const reference::Result oracle = reference::render(scene);
+    const oracle::Result oracle = oracle::render(scene);
     for (const Variant& variant : eachAlone({}, machine.info())) {
       INFO(input << ", " << variant.text());
       CHECK(difference(machine.render(scene, variant), oracle) == "");

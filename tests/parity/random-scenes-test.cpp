@@ -78,7 +78,7 @@ PLACE_AND_SWIFTSHADER_TEST_CASE("Random scenes have the oracle's bits under all 
     const Scene scene = randomScene(seed);
     if (machine.isSwiftShader() && !isMild(scene)) continue;
     const Variant image = randomImage(seed);
-    const reference::Result oracle = reference::render(scene, imageAxesOf(image));
+    const oracle::Result oracle = oracle::render(scene, oracle::imageAxesOf(image));
     Random random(seed);
     for (std::size_t i = 0; i < variantsOfScene(machine) && failures < 3; ++i, ++next) {
       // A path comes with one of the images only, so that it has one raster kernel.

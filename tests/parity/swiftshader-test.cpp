@@ -14,7 +14,7 @@ TEST_CASE("Each implementation value alone has the oracle's bits on SwiftShader"
   if (machine == nullptr) return;
   for (const char* const input : {"generate:icosphere?level=3", "generate:hot?count=500", "generate:fan?count=500"}) {
     const Scene scene = loadInput(input, 96, 96);
-    const reference::Result oracle = reference::render(scene);
+    const oracle::Result oracle = oracle::render(scene);
     for (const Variant& variant : eachAlone({}, machine->info())) {
       INFO(input << ", " << variant.text());
       CHECK(difference(machine->render(scene, variant), oracle) == "");

@@ -31,20 +31,20 @@ TEST_CASE("near and far planes give the points and the first corner of Sutherlan
   const vec4 beforeEye(-1, -1, -0.5f, 1), beyond(-1, -1, 1.5f, 1);
   // t = 1/2 on both edges.
   const Polygon cutNear{{0, -1, 0, 1}, b, c, {-1, 0, 0, 1}};
-  CHECK(reference::clip({beforeEye, b, c}, 256, 256).polygon == cutNear);
+  CHECK(oracle::clip({beforeEye, b, c}, 256, 256).polygon == cutNear);
   const Polygon cutFar{{0, -1, 1, 1}, b, c, {-1, 0, 1, 1}};
-  CHECK(reference::clip({beyond, b, c}, 256, 256).polygon == cutFar);
+  CHECK(oracle::clip({beyond, b, c}, 256, 256).polygon == cutFar);
   // The same triangle turned: another first vertex, the same points.
-  CHECK(reference::clip({b, c, beforeEye}, 256, 256).polygon == Polygon{b, c, {-1, 0, 0, 1}, {0, -1, 0, 1}});
-  CHECK(reference::clip({beforeEye, b, c}, 256, 256).outsideSome);
+  CHECK(oracle::clip({b, c, beforeEye}, 256, 256).polygon == Polygon{b, c, {-1, 0, 0, 1}, {0, -1, 0, 1}});
+  CHECK(oracle::clip({beforeEye, b, c}, 256, 256).outsideSome);
   // Two vertices outside leave a triangle.
   const Polygon corner{a, {0, -1, 0, 1}, {-1, 0, 0, 1}};
-  CHECK(reference::clip({a, {1, -1, -0.5f, 1}, {-1, 1, -0.5f, 1}}, 256, 256).polygon == corner);
+  CHECK(oracle::clip({a, {1, -1, -0.5f, 1}, {-1, 1, -0.5f, 1}}, 256, 256).polygon == corner);
   // Touching a plane is inside; beyond it in every vertex is nothing.
-  const auto touching = reference::clip({vec4(-1, -1, 0, 1), vec4(1, -1, 1, 1), vec4(-1, 1, -0.0f, 1)}, 256, 256);
+  const auto touching = oracle::clip({vec4(-1, -1, 0, 1), vec4(1, -1, 1, 1), vec4(-1, 1, -0.0f, 1)}, 256, 256);
   CHECK(touching.polygon.size() == 3);
   CHECK_FALSE(touching.outsideSome);
-  const auto outside = reference::clip({beyond, beyond, beyond}, 256, 256);
+  const auto outside = oracle::clip({beyond, beyond, beyond}, 256, 256);
   CHECK(outside.polygon.empty());
   CHECK(outside.outsideSome);
 }
@@ -64,17 +64,17 @@ TEST_CASE("the guard band lies 32767 pixels either side of the centre on each of
       cutLow[axis] = cutHigh[axis] = sign * kGuard;
       cutLow[other] = -4;
       cutHigh[other] = 4;
-      const auto clipped = reference::clip({out, low, high}, 2, 2);
+      const auto clipped = oracle::clip({out, low, high}, 2, 2);
       CHECK(clipped.outsideSome);
       CHECK(clipped.polygon == Polygon{cutLow, low, high, cutHigh});
 
       out[axis] = sign * kGuard;  // on it: untouched, and as far out as a snapped position gets on this raster
-      CHECK_FALSE(reference::clip({out, low, high}, 2, 2).outsideSome);
+      CHECK_FALSE(oracle::clip({out, low, high}, 2, 2).outsideSome);
       Scene scene;
       scene.width = scene.height = 2;
       scene.clip = {out, low, high};
       scene.triangles = {{0, 1, 2}};
-      const auto pieces = reference::pieces(scene, {});
+      const auto pieces = oracle::pieces(scene, {});
       REQUIRE(pieces.size() == 1);
       const std::int32_t reached = axis == 0 ? pieces[0].x[0] : pieces[0].y[0];
       CHECK(reached == (sign > 0 ? 32768 * 256 : -32766 * 256));
@@ -83,9 +83,9 @@ TEST_CASE("the guard band lies 32767 pixels either side of the centre on each of
 }
 
 TEST_CASE("a triangle inside the guard band is not clipped however far it lies outside the raster") {
-  reference::Counts counts;
+  oracle::Counts counts;
   const auto scene = inPixels(16, 16, {{-1000, -1000}, {3000, 8}, {-1000, 2000}}, {{0, 1, 2}});
-  CHECK(reference::pieces(scene, {}, &counts).size() == 1);
+  CHECK(oracle::pieces(scene, {}, &counts).size() == 1);
   CHECK(counts.clipped == 0);
   CHECK(counts.outside == 0);
 }
@@ -96,8 +96,8 @@ TEST_CASE("a clipped triangle keeps its id in every piece and counts once") {
   scene.clip = {{0, 0, 0, 1},       {0.01f, 0, 0, 1}, {0, 0.01f, 0, 1},
                 {-1, -1, -0.5f, 1}, {1, -1, 0.5f, 1}, {-1, 1, 1.5f, 1}};
   scene.triangles = {{0, 1, 2}, {3, 4, 5}};
-  reference::Counts counts;
-  const auto pieces = reference::pieces(scene, {}, &counts);
+  oracle::Counts counts;
+  const auto pieces = oracle::pieces(scene, {}, &counts);
   CHECK(counts.clipped == 1);
   REQUIRE(pieces.size() > 2);
   CHECK(pieces[0].id == 0);
@@ -113,7 +113,7 @@ TEST_CASE("two triangles that share an edge get the same clip point whichever wa
                  1 + 0.5f * uniform());  // inside all planes
     const auto anywhere = [&] { return vec4(1e5f * uniform(), 1e5f * uniform(), 3 * uniform(), 2 * uniform()); };
     const vec4 b = anywhere(), c = anywhere(), d = anywhere();
-    const auto one = reference::clip({a, b, c}, 64, 64).polygon, two = reference::clip({b, a, d}, 64, 64).polygon;
+    const auto one = oracle::clip({a, b, c}, 64, 64).polygon, two = oracle::clip({b, a, d}, 64, 64).polygon;
     // The shared edge ends at `a` and at the last point that clipping left on it: after `a` in one, before it in the
     // other.
     const auto at = [&](const Polygon& p) {
@@ -132,10 +132,10 @@ TEST_CASE("two triangles that share an edge get the same clip point whichever wa
 TEST_CASE("rounding can leave more corners than planes would in real numbers") {
   // Found by search: with the last plane crossing a bent polygon four times, 10 corners. Fixed arrays of 9 would
   // overflow.
-  const auto clipped = reference::clip({vec4(0.5f, -0x1.16c2p-133f, 0x1.b38fb8p-127f, -1),
-                                        vec4(0x1.16c2p-133f, -0x1.ff933cp+127f, -0x1.16c2p-133f, 0x1.ff933cp+127f),
-                                        vec4(0x1.93e594p+99f, 0x1.ff933cp+127f, 0x1.16c2p-133f, 0x1.93e594p+99f)},
-                                       333, 32768);
+  const auto clipped = oracle::clip({vec4(0.5f, -0x1.16c2p-133f, 0x1.b38fb8p-127f, -1),
+                                     vec4(0x1.16c2p-133f, -0x1.ff933cp+127f, -0x1.16c2p-133f, 0x1.ff933cp+127f),
+                                     vec4(0x1.93e594p+99f, 0x1.ff933cp+127f, 0x1.16c2p-133f, 0x1.93e594p+99f)},
+                                    333, 32768);
   CHECK(clipped.polygon.size() == 10);
 }
 
@@ -149,7 +149,7 @@ TEST_CASE("a quad from behind the eye to the horizon is hit once also where it i
   for (const auto& triangles :
        {std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}}, std::vector<Triangle>{{1, 2, 3}, {1, 3, 0}}}) {
     scene.triangles = triangles;
-    const auto result = reference::render(scene);
+    const auto result = oracle::render(scene);
     CHECK(result.counts.clipped == 2);
     // The floor at `ahead` is seen on row 128 + 128 / ahead: from the horizon's 130 down to the last row, at ahead > 1.
     std::uint64_t wrong = 0;
@@ -171,7 +171,7 @@ TEST_CASE("a quad far past every side of the guard band covers the raster once")
          {std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}}, std::vector<Triangle>{{0, 1, 3}, {1, 2, 3}}}) {
       scene.triangles = triangles;
       CAPTURE(far);
-      CHECK(allHitOnce(reference::render(scene).image));
+      CHECK(allHitOnce(oracle::render(scene).image));
     }
   }
 }
@@ -184,12 +184,12 @@ TEST_CASE("rasters of 1 pixel and 32768 wide or tall are covered to their last p
     scene.clip = {{-1, -1, 0, 1}, {1, -1, 0.5f, 1}, {1, 1, 1, 1}, {-1, 1, 0.5f, 1}};
     scene.triangles = {{0, 1, 2}, {0, 2, 3}};
     CAPTURE(width, height);
-    const auto result = reference::render(scene, {}, true);
+    const auto result = oracle::render(scene, {}, true);
     CHECK(allHitOnce(result.image));
     CHECK(result.counts.covered == std::uint64_t{width} * height);
     CHECK(result.depthMaxAbs < 1e-5);
     // Beyond the guard band's reach on this raster, still one hit a sample.
     for (vec4& v : scene.clip) v.x *= 50, v.y *= 70'000;
-    CHECK(allHitOnce(reference::render(scene).image));
+    CHECK(allHitOnce(oracle::render(scene).image));
   }
 }

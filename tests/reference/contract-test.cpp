@@ -11,7 +11,7 @@
 #include "tests/reference/in-pixels.h"
 
 using namespace tessera;
-using reference::Cull;
+using oracle::Cull;
 
 namespace {
 
@@ -26,8 +26,8 @@ std::vector<PixelVertex> operator+(std::vector<PixelVertex> a, const std::vector
   return a;
 }
 
-reference::Result renderOver(const std::vector<PixelVertex>& vertices) {
-  return reference::render(inPixels(1, 1, vertices, inThrees(vertices.size())));
+oracle::Result renderOver(const std::vector<PixelVertex>& vertices) {
+  return oracle::render(inPixels(1, 1, vertices, inThrees(vertices.size())));
 }
 
 }  // namespace
@@ -36,7 +36,7 @@ TEST_CASE("the transform is four sums in the stated order") {
   Scene scene;
   scene.positions = {{0.1f, 0.2f, 0.3f}};
   for (int k = 0; k < 16; ++k) scene.clipFromObject[k] = 1.0f / static_cast<float>(k + 3);
-  const glm::vec4 v = reference::transform(scene)[0];
+  const glm::vec4 v = oracle::transform(scene)[0];
   for (int r = 0; r < 4; ++r) {
     const float* m = &scene.clipFromObject[4 * r];
     const volatile float a = m[0] * 0.1f, b = m[1] * 0.2f, c = m[2] * 0.3f;  // volatile: each product rounded by itself
@@ -45,7 +45,7 @@ TEST_CASE("the transform is four sums in the stated order") {
   }
   scene.positions.clear();
   scene.clip = {{1, 2, 3, 4}};
-  CHECK(reference::transform(scene)[0] == glm::vec4(1, 2, 3, 4));  // clip positions are taken as they are
+  CHECK(oracle::transform(scene)[0] == glm::vec4(1, 2, 3, 4));  // clip positions are taken as they are
 }
 
 TEST_CASE("positions snap to the nearest 1/256 pixel and ties to even") {
@@ -58,7 +58,7 @@ TEST_CASE("positions snap to the nearest 1/256 pixel and ties to even") {
     const float c = (s - 256) / 256;
     scene.clip = {{c, c, 0, 1}, {1, -1, 0, 1}, {1, 1, 0, 1}};
     scene.triangles = {{0, 1, 2}};
-    const auto pieces = reference::pieces(scene, {});
+    const auto pieces = oracle::pieces(scene, {});
     REQUIRE(pieces.size() == 1);
     CAPTURE(s);
     CHECK(pieces[0].x[0] == expected);
@@ -81,7 +81,7 @@ TEST_CASE("projection multiplies by the rounded reciprocal") {
                 x = -w * (0.9f + static_cast<float>(random() * 0x1p-36));
     scene.clip = {{x, 0, 0.25f * w, w}, {1, -1, 0, 1}, {1, 1, 0, 1}};
     const volatile float r = 1.0f / w, product = x * r, quotient = x / w;
-    REQUIRE(reference::pieces(scene, {})[0].x[0] == snapped(product));
+    REQUIRE(oracle::pieces(scene, {})[0].x[0] == snapped(product));
     apart += snapped(product) != snapped(quotient);
   }
   CHECK(apart > 0);  // so dividing would have been seen
@@ -92,27 +92,27 @@ TEST_CASE("negative area is front and is reordered to positive") {
   const Scene front = inPixels(8, 8, vertices, {{0, 1, 2}});
   const Scene back = inPixels(8, 8, vertices, {{0, 2, 1}});
   for (const Scene& scene : {front, back}) {
-    const auto pieces = reference::pieces(scene, {});
+    const auto pieces = oracle::pieces(scene, {});
     REQUIRE(pieces.size() == 1);
-    const reference::Piece& t = pieces[0];
+    const oracle::Piece& t = pieces[0];
     CHECK(std::vector(t.x, t.x + 3) == std::vector{0, 1024, 0});
     CHECK(std::vector(t.y, t.y + 3) == std::vector{0, 0, 1024});
     CHECK(std::vector(t.z, t.z + 3) == std::vector{0.1f, 0.3f, 0.2f});
   }
-  reference::Counts counts;
-  CHECK(reference::pieces(front, {Cull::kBack}, &counts).size() == 1);
+  oracle::Counts counts;
+  CHECK(oracle::pieces(front, {Cull::kBack}, &counts).size() == 1);
   CHECK(counts.facing == 0);
-  CHECK(reference::pieces(front, {Cull::kFront}, &counts).empty());
+  CHECK(oracle::pieces(front, {Cull::kFront}, &counts).empty());
   CHECK(counts.facing == 1);
-  CHECK(reference::pieces(back, {Cull::kBack}, &counts).empty());
+  CHECK(oracle::pieces(back, {Cull::kBack}, &counts).empty());
   CHECK(counts.facing == 1);
-  CHECK(reference::pieces(back, {Cull::kFront}, &counts).size() == 1);
+  CHECK(oracle::pieces(back, {Cull::kFront}, &counts).size() == 1);
 }
 
 TEST_CASE("zero area is dropped after snapping and counted") {
   const auto counts = [](std::vector<PixelVertex> v) {
-    reference::Counts c;
-    CHECK(reference::pieces(inPixels(8, 8, v, {{0, 1, 2}}), {}, &c).empty());
+    oracle::Counts c;
+    CHECK(oracle::pieces(inPixels(8, 8, v, {{0, 1, 2}}), {}, &c).empty());
     return c;
   };
   CHECK(counts({{1, 1}, {2, 2}, {3, 3}}).zeroArea == 1);
@@ -143,7 +143,7 @@ TEST_CASE("a depth of -0 is written as +0") {
 TEST_CASE("depth is linear on the screen and exact where the plane is") {
   // 8 x 8 pixels: 1/area2 is a power of two, and z rises by 1/8 a pixel.
   const Scene scene = inPixels(16, 16, {{0, 0, 0}, {8, 0, 1}, {0, 8, 0}}, {{0, 1, 2}});
-  const auto result = reference::render(scene, {}, true);
+  const auto result = oracle::render(scene, {}, true);
   for (std::uint32_t i = 0; i < 7; ++i) CHECK(result.image.depth[i] == (static_cast<float>(i) + 0.5f) / 8);
   CHECK(result.depthMaxAbs == 0);
   CHECK(result.depthMaxUlp == 0);
@@ -162,10 +162,10 @@ TEST_CASE("depth has the bits of the contract and stays within its piece") {
       v[2].z = v[1].z;
     }
     const Scene scene = inPixels(kSize, kSize, v, {{0, 1, 2}});
-    const auto all = reference::pieces(scene, {});
+    const auto all = oracle::pieces(scene, {});
     if (all.empty()) continue;
-    const reference::Piece& t = all[0];
-    const auto result = reference::render(scene);
+    const oracle::Piece& t = all[0];
+    const auto result = oracle::render(scene);
     const auto [zmin, zmax] = std::minmax({t.z[0], t.z[1], t.z[2]});
     const auto e = [&](int a, int b, std::int64_t px, std::int64_t py) {
       return static_cast<float>(std::int64_t{t.x[b] - t.x[a]} * (py - t.y[a]) -
@@ -205,10 +205,10 @@ TEST_CASE("the reported depth error is that against the exact rational depth") {
                    static_cast<float>(random() % (kSize * 256)) / 256, static_cast<float>(random() % 4097) / 4096});
     }
     const Scene scene = inPixels(kSize, kSize, v, {{0, 1, 2}});
-    const auto all = reference::pieces(scene, {});
+    const auto all = oracle::pieces(scene, {});
     if (all.empty()) continue;
-    const reference::Piece& t = all[0];
-    const auto result = reference::render(scene, {}, true);
+    const oracle::Piece& t = all[0];
+    const auto result = oracle::render(scene, {}, true);
     double maxAbs = 0, maxUlp = 0;
     for (std::size_t k = 0; k < result.image.pixels(); ++k) {
       if (!result.image.hits[k]) continue;
@@ -257,7 +257,7 @@ TEST_CASE("unusable triangles are dropped with their cause and the rest of the i
                      {0, 1, 8},    {0, 1, 9},                                  // w = 0; 1/w = infinity
                      {1, 1, 2},                                                // repeated vertex
                      {0, 1, 2}};
-  const auto result = reference::render(scene);
+  const auto result = oracle::render(scene);
   CHECK(result.counts.submitted == 11);
   CHECK(result.counts.badIndex == 2);
   CHECK(result.counts.nonFinite == 4);
@@ -266,13 +266,13 @@ TEST_CASE("unusable triangles are dropped with their cause and the rest of the i
   CHECK(result.counts.zeroArea == 1);
   CHECK(result.counts.covered == 1);
   CHECK(result.image.ids[0] == 10);
-  CHECK(result.image.depth == reference::render(clean).image.depth);
+  CHECK(result.image.depth == oracle::render(clean).image.depth);
 
   Scene empty;
   empty.width = empty.height = 3;
-  CHECK(reference::render(empty).counts.submitted == 0);
+  CHECK(oracle::render(empty).counts.submitted == 0);
   empty.triangles = {{0, 1, 2}};  // indices without vertices
-  CHECK(reference::render(empty).counts.badIndex == 1);
+  CHECK(oracle::render(empty).counts.badIndex == 1);
 }
 
 TEST_CASE("whatever float32 patterns come in pieces stay in range") {
@@ -296,8 +296,8 @@ TEST_CASE("whatever float32 patterns come in pieces stay in range") {
       const float x = any(), y = any(), z = any(), w = any();
       scene.clip.emplace_back(x, y, z, w);
     }
-    reference::Counts counts;
-    for (const reference::Piece& t : reference::pieces(scene, {}, &counts)) {
+    oracle::Counts counts;
+    for (const oracle::Piece& t : oracle::pieces(scene, {}, &counts)) {
       ++kept;
       for (int k = 0; k < 3; ++k) {
         wrong += std::abs(t.x[k]) > 1 << 24 || std::abs(t.y[k]) > 1 << 24;

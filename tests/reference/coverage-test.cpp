@@ -23,7 +23,7 @@ std::vector<std::string> picture(const Framebuffer& frame) {
 }
 
 std::vector<std::string> picture(std::vector<PixelVertex> vertices, std::vector<Triangle> triangles) {
-  return picture(reference::render(inPixels(8, 4, vertices, std::move(triangles))).image);
+  return picture(oracle::render(inPixels(8, 4, vertices, std::move(triangles))).image);
 }
 
 bool allHitOnce(const Framebuffer& frame) {
@@ -68,7 +68,7 @@ TEST_CASE("hits count each triangle on a sample") {
   const std::vector<PixelVertex> corners{{0, 0}, {4, 0}, {4, 4}, {0, 4}};
   const std::vector<std::string> expected{"2221....", "1211....", "1.11....", "...1...."};
   CHECK(picture(corners, {{0, 1, 2}, {0, 1, 3}}) == expected);
-  CHECK(reference::render(inPixels(8, 4, corners, {{0, 1, 2}, {0, 1, 3}})).counts.covered == 16);
+  CHECK(oracle::render(inPixels(8, 4, corners, {{0, 1, 2}, {0, 1, 3}})).counts.covered == 16);
 }
 
 TEST_CASE("every sample of a closed rotated grid is hit exactly once") {
@@ -95,7 +95,7 @@ TEST_CASE("every sample of a closed rotated grid is hit exactly once") {
       }
     }
     CAPTURE(degrees);
-    const auto result = reference::render(inPixels(kSize, kSize, vertices, triangles));
+    const auto result = oracle::render(inPixels(kSize, kSize, vertices, triangles));
     CHECK(allHitOnce(result.image));
     CHECK(result.counts.covered == kSize * kSize);
   }
@@ -122,7 +122,7 @@ TEST_CASE("every sample of a closed fan of 100 thousand slivers is hit exactly o
     triangles.push_back({0, i + 1, (i + 1) % kSlivers + 1});
   }
   // A sliver that cuts a corner of the rectangle is far thinner than the 8 pixels between rim and raster.
-  const auto result = reference::render(inPixels(kWidth, kHeight, vertices, triangles));
+  const auto result = oracle::render(inPixels(kWidth, kHeight, vertices, triangles));
   CHECK(allHitOnce(result.image));
   CHECK(result.counts.zeroArea < 10);
 }
@@ -150,14 +150,14 @@ TEST_CASE("the interval of each row is what testing pixel by pixel gives") {
       vertices.push_back({x, y, static_cast<float>(below(1025)) / 1024});
     }
     const Scene scene = inPixels(kSize, kSize, vertices, {{0, 1, 2}});
-    const auto result = reference::render(scene);
-    const auto pieces = reference::pieces(scene, {});
+    const auto result = oracle::render(scene);
+    const auto pieces = oracle::pieces(scene, {});
     if (pieces.empty()) {
       REQUIRE(result.counts.zeroArea == 1);
       continue;
     }
     REQUIRE(pieces.size() == 1);
-    const reference::Piece& t = pieces[0];
+    const oracle::Piece& t = pieces[0];
     std::uint64_t wrong = 0;
     for (std::uint32_t j = 0; j < kSize; ++j) {
       for (std::uint32_t i = 0; i < kSize; ++i) {

@@ -11,15 +11,15 @@
 #include "tests/reference/in-pixels.h"
 
 using namespace tessera;
-using reference::Fill, reference::ImageAxes, reference::Interpolate, reference::Piece;
+using oracle::Fill, oracle::ImageAxes, oracle::Interpolate, oracle::Piece;
 
 namespace {
 
 constexpr double kUnit = 0x1p-24;  // largest relative error of one rounding
 
 std::vector<std::string> picture(const std::vector<PixelVertex>& vertices, const std::vector<Triangle>& triangles,
-                                 const ImageAxes& axes) {
-  const Framebuffer frame = reference::render(inPixels(8, 4, vertices, triangles), axes).image;
+                                 const oracle::ImageAxes& axes) {
+  const Framebuffer frame = oracle::render(inPixels(8, 4, vertices, triangles), axes).image;
   std::vector<std::string> rows(frame.height, std::string(frame.width, '.'));
   for (std::size_t k = 0; k < frame.pixels(); ++k)
     if (frame.hits[k]) rows[k / frame.width][k % frame.width] = static_cast<char>('0' + frame.hits[k]);
@@ -29,13 +29,13 @@ std::vector<std::string> picture(const std::vector<PixelVertex>& vertices, const
 // X of a vertex at `position` pixels of a raster of 4 x 4, whose Y is the same.
 int snapped(float position, int bits) {
   const Scene scene = inPixels(4, 4, {{position, position}, {3.5f, 0.5f}, {0.5f, 3.5f}}, {{0, 1, 2}});
-  const auto pieces = reference::pieces(scene, {.subPixelBits = bits});
+  const auto pieces = oracle::pieces(scene, {.subPixelBits = bits});
   REQUIRE(pieces.size() == 1);
   REQUIRE(pieces[0].x[0] == pieces[0].y[0]);
   return pieces[0].x[0];
 }
 
-std::int64_t edge(const Piece& t, int a, int b, std::int64_t px, std::int64_t py) {
+std::int64_t edge(const oracle::Piece& t, int a, int b, std::int64_t px, std::int64_t py) {
   return std::int64_t{t.x[b] - t.x[a]} * (py - t.y[a]) - std::int64_t{t.y[b] - t.y[a]} * (px - t.x[a]);
 }
 
@@ -54,12 +54,12 @@ struct Errors {
 //            the magnitudes of all terms, and u on z0 and on the result.
 Errors checkBounds(const Scene& scene) {
   Errors errors;
-  const auto pieces = reference::pieces(scene, {});
+  const auto pieces = oracle::pieces(scene, {});
   if (pieces.empty()) return errors;
-  const Piece& t = pieces[0];
-  const auto render = [&](Interpolate way) { return reference::render(scene, {.interpolate = way}, true); };
-  const auto weights = render(Interpolate::kWeights), plane = render(Interpolate::kPlane);
-  errors = {plane.depthMaxAbs, weights.depthMaxAbs, render(Interpolate::kCellPlane).depthMaxAbs};
+  const oracle::Piece& t = pieces[0];
+  const auto render = [&](oracle::Interpolate way) { return oracle::render(scene, {.interpolate = way}, true); };
+  const auto weights = render(oracle::Interpolate::kWeights), plane = render(oracle::Interpolate::kPlane);
+  errors = {plane.depthMaxAbs, weights.depthMaxAbs, render(oracle::Interpolate::kCellPlane).depthMaxAbs};
   const auto [zmin, zmax] = std::minmax({t.z[0], t.z[1], t.z[2]});
   CHECK(errors.weights <= (7 * kUnit * (double{zmax} - zmin) + kUnit) * 1.001);
   const double area = static_cast<double>(edge(t, 0, 1, t.x[2], t.y[2]));
@@ -84,7 +84,7 @@ Errors checkBounds(const Scene& scene) {
 }  // namespace
 
 TEST_CASE("inclusive fill covers each sample of an edge from both sides and the whole outline") {
-  const ImageAxes inclusive{.fill = Fill::kInclusive};
+  const oracle::ImageAxes inclusive{.fill = oracle::Fill::kInclusive};
   const std::vector<PixelVertex> corners{{1.5f, 0.5f}, {4.5f, 0.5f}, {4.5f, 3.5f}, {1.5f, 3.5f}};
   CHECK(picture(corners, {{0, 1, 2}, {0, 2, 3}}, inclusive) ==
         std::vector<std::string>{".2111...", ".1211...", ".1121...", ".1112..."});
@@ -110,10 +110,11 @@ TEST_CASE("inclusive fill is each edge function at least 0") {
       v.push_back({static_cast<float>(x) / static_cast<float>(step), static_cast<float>(y) / static_cast<float>(step)});
     }
     const Scene scene = inPixels(kSize, kSize, v, {{0, 1, 2}});
-    const ImageAxes image{.fill = Fill::kInclusive, .subPixelBits = std::array{0, 4, 6, 8}[round / 2 % 4]};
-    const auto pieces = reference::pieces(scene, image);
+    const oracle::ImageAxes image{.fill = oracle::Fill::kInclusive,
+                                  .subPixelBits = std::array{0, 4, 6, 8}[round / 2 % 4]};
+    const auto pieces = oracle::pieces(scene, image);
     if (pieces.empty()) continue;
-    const auto result = reference::render(scene, image);
+    const auto result = oracle::render(scene, image);
     std::uint64_t wrong = 0;
     for (std::size_t k = 0; k < result.image.pixels(); ++k) {
       const auto px = static_cast<std::int64_t>(256 * (k % kSize) + 128);
@@ -155,7 +156,7 @@ TEST_CASE("without sub-pixel bits vertices lie on samples") {
 }
 
 TEST_CASE("without sub-pixel bits inclusive fill covers the pixels of the corners") {
-  const ImageAxes image{.fill = Fill::kInclusive, .subPixelBits = 0};
+  const oracle::ImageAxes image{.fill = oracle::Fill::kInclusive, .subPixelBits = 0};
   // (1, 0), (5, 0) and (1, 2) as integer vertices; anywhere within their pixels is the same.
   const std::vector<std::string> expected{".11111..", ".111....", ".1......", "........"};
   CHECK(picture({{1.5f, 0.5f}, {5.5f, 0.5f}, {1.5f, 2.5f}}, {{0, 1, 2}}, image) == expected);
@@ -203,11 +204,11 @@ TEST_CASE("interpolation has the stated bits in each way") {
     std::vector<PixelVertex> v;
     for (int k = 0; k < 3; ++k) v.push_back({uniform(64), uniform(64), uniform(1)});
     const Scene scene = inPixels(64, 64, v, {{0, 1, 2}});
-    const auto pieces = reference::pieces(scene, {});
+    const auto pieces = oracle::pieces(scene, {});
     if (pieces.empty()) continue;
-    const Piece& t = pieces[0];
-    const auto weights = reference::render(scene, {.interpolate = Interpolate::kWeights}).image;
-    const auto plane = reference::render(scene, {.interpolate = Interpolate::kPlane}).image;
+    const oracle::Piece& t = pieces[0];
+    const auto weights = oracle::render(scene, {.interpolate = oracle::Interpolate::kWeights}).image;
+    const auto plane = oracle::render(scene, {.interpolate = oracle::Interpolate::kPlane}).image;
     const auto [zmin, zmax] = std::minmax({t.z[0], t.z[1], t.z[2]});
     const auto f = [](std::int64_t n) { return static_cast<float>(n); };
     const float r = 1.0f / f(edge(t, 0, 1, t.x[2], t.y[2])), d1 = t.z[1] - t.z[0], d2 = t.z[2] - t.z[0];
@@ -235,10 +236,10 @@ TEST_CASE("interpolation has the stated bits in each way") {
 }
 
 TEST_CASE("a variant's image axes are the oracle's") {
-  CHECK(imageAxesOf({}).cull == reference::Cull::kNone);
-  CHECK(imageAxesOf({}).fill == Fill::kTopLeft);
-  CHECK(imageAxesOf({}).interpolate == Interpolate::kCellPlane);
-  CHECK(imageAxesOf({}).subPixelBits == 8);
-  CHECK(imageAxesOf({{"cull", "back"}}).cull == reference::Cull::kBack);
-  CHECK(imageAxesOf({{"cull", "front"}}).cull == reference::Cull::kFront);
+  CHECK(oracle::imageAxesOf({}).cull == oracle::Cull::kNone);
+  CHECK(oracle::imageAxesOf({}).fill == oracle::Fill::kTopLeft);
+  CHECK(oracle::imageAxesOf({}).interpolate == oracle::Interpolate::kCellPlane);
+  CHECK(oracle::imageAxesOf({}).subPixelBits == 8);
+  CHECK(oracle::imageAxesOf({{"cull", "back"}}).cull == oracle::Cull::kBack);
+  CHECK(oracle::imageAxesOf({{"cull", "front"}}).cull == oracle::Cull::kFront);
 }

@@ -105,7 +105,7 @@ TEST_CASE("validation is silent over bounds checks, which find nothing in our ke
     CHECK(variants.size() > 20);
     for (const Variant& variant : variants) {
       const Frame frame = checked.render(scene, variant);
-      CHECK(difference(frame, reference::render(scene, imageAxesOf(frame.plan.resolved))) == "");
+      CHECK(difference(frame, oracle::render(scene, oracle::imageAxesOf(frame.plan.resolved))) == "");
     }
   }
 }

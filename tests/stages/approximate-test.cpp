@@ -33,7 +33,7 @@ Scene triangleThroughSample(Random& random) {
 struct EdgeAt {
   double value, bound;
 };
-EdgeAt edgeAt(const reference::Piece& p, int a, int b, double x, double y, bool plane) {
+EdgeAt edgeAt(const oracle::Piece& p, int a, int b, double x, double y, bool plane) {
   const double dx = p.y[a] - p.y[b], dy = p.x[b] - p.x[a];
   const double u = 0x1p-24;
   const double value = dx * (x - p.x[a]) + dy * (y - p.y[a]);
@@ -43,7 +43,7 @@ EdgeAt edgeAt(const reference::Piece& p, int a, int b, double x, double y, bool 
 }
 
 /// Whether some edge is so close to the sample that its arithmetic may be wrong there.
-bool mayErr(const reference::Piece& p, std::size_t pixel, std::size_t width, bool plane) {
+bool mayErr(const oracle::Piece& p, std::size_t pixel, std::size_t width, bool plane) {
   const double x = 256.0 * static_cast<double>(pixel % width) + 128, y = 256.0 * static_cast<double>(pixel / width) + 128;
   for (int a = 0; a < 3; ++a)
     if (const EdgeAt e = edgeAt(p, a, (a + 1) % 3, x, y, plane); e.value <= e.bound) return true;
@@ -77,9 +77,9 @@ PLACE_TEST_CASE("Float32 edges are wrong near edges only and somewhere", "[appro
   const int triangles = machine.info().api == "cpu" ? 300 : 100;  // some 7 of 100 err
   for (int i = 0; i < triangles; ++i) {
     const Scene scene = triangleThroughSample(random);
-    const auto pieces = reference::pieces(scene, {});
+    const auto pieces = oracle::pieces(scene, {});
     if (pieces.empty()) continue;
-    const std::vector<std::uint32_t> exact = reference::render(scene).image.hits;
+    const std::vector<std::uint32_t> exact = oracle::render(scene).image.hits;
     for (const bool plane : {true, false}) {
       const char* const edge = plane ? "float32-plane" : "float32-difference";
       const std::vector<std::uint32_t> hits = machine.render(scene, {{"commit", "count"}, {"edge", edge}}).image.hits;

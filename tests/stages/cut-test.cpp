@@ -44,7 +44,7 @@ Machine cutMachine(std::uint64_t bytes, std::uint32_t iterations = 0) {
 
 TEST_CASE("A device of small buffers gives the bits of a large one", "[cut]") {
   const Scene scene = testScene();
-  const reference::Result oracle = reference::render(scene);
+  const oracle::Result oracle = oracle::render(scene);
   Machine& whole = *machineAt<Cpu>();
   // 64 rows take 38,400 bytes of depth or 76,800 of packed words; 2,606 pieces take 104,240, and more where they are
   // clipped.
@@ -73,7 +73,7 @@ TEST_CASE("Bands count what was dropped once, by facing too", "[cut]") {
   for (const char* cull : {"back", "front"}) {
     const Variant variant{{"cull", cull}};
     INFO(variant.text());
-    const reference::Result oracle = reference::render(scene, imageAxesOf(variant));
+    const oracle::Result oracle = oracle::render(scene, oracle::imageAxesOf(variant));
     CHECK(oracle.counts.facing > 0);
     const Frame frame = cut.render(scene, variant);
     CHECK(frame.counters.at("bands") > 1);
@@ -98,7 +98,7 @@ TEST_CASE("Shading survives bands and batches", "[cut]") {
 
 TEST_CASE("A device of short loops gives the bits of one of long ones", "[cut]") {
   const Scene scene = testScene();
-  const reference::Result oracle = reference::render(scene);
+  const oracle::Result oracle = oracle::render(scene);
   Machine cut = cutMachine(0, 2000);
   for (const Variant& variant : paths(cut.info())) {
     INFO(variant.text());

@@ -54,11 +54,14 @@ int lanesAtOnce(const std::string& width) {
 
 const Evidence kEvidence{
     {"wide",
-     {{"native", [] { CHECK(hasCapability({{"wide", "native"}}, 11)); }},  // Int64
+     {{"native",
+       [] {
+         CHECK(hasCapability({{"wide", "native"}}, 11));
+       }},  // Int64
       {"two-word",
        [] {
          CHECK(!hasCapability({{"wide", "two-word"}}, 11));
-         CHECK(difference(on(sphere(), {{"wide", "two-word"}, {"edge", "int64"}}), reference::render(sphere())) == "");
+         CHECK(difference(on(sphere(), {{"wide", "two-word"}, {"edge", "int64"}}), oracle::render(sphere())) == "");
        }}}},
     {"commit",
      {{"tile-owned",
@@ -83,7 +86,7 @@ const Evidence kEvidence{
        [] {
          const Frame frame = on(sphere(), {{"commit", "depth32+rgba8"}});
          CHECK(ran(frame, "payload"));
-         CHECK(frame.image.depth == reference::render(sphere()).image.depth);
+         CHECK(frame.image.depth == oracle::render(sphere()).image.depth);
          CHECK(std::ranges::count(frame.image.ids, kUnknownTriangle) ==
                std::ssize(frame.image.ids) - std::ranges::count(frame.image.ids, kNoTriangle));
        }},
@@ -91,26 +94,26 @@ const Evidence kEvidence{
        [] {
          const Frame frame = on(sphere(), {{"commit", "depth24+lum8"}});
          CHECK(ran(frame, "payload"));
-         CHECK(frame.image.depth != reference::render(sphere()).image.depth);
+         CHECK(frame.image.depth != oracle::render(sphere()).image.depth);
          CHECK(std::ranges::all_of(frame.image.colour, [](const glm::vec3& c) { return c.x == c.y && c.y == c.z; }));
        }},
       {"depth16+id16",
        [] {
          const Frame frame = on(sphere(), {{"commit", "depth16+id16"}});
          CHECK(ran(frame, "resolve"));
-         CHECK(frame.image.depth != reference::render(sphere()).image.depth);
+         CHECK(frame.image.depth != oracle::render(sphere()).image.depth);
        }},
       {"lock",
        [] {
          const Frame frame = on(sphere(), {{"commit", "lock"}});
          CHECK(count(frame, "atomics") == 2 * count(frame, "covered"));
-         CHECK(difference(frame, reference::render(sphere())) == "");
+         CHECK(difference(frame, oracle::render(sphere())) == "");
        }},
       {"count",
        [] {
          const Frame frame = on(sphere(), {{"commit", "count"}});
          CHECK(frame.image.ids.empty());
-         CHECK(frame.image.hits == reference::render(sphere()).image.hits);
+         CHECK(frame.image.hits == oracle::render(sphere()).image.hits);
        }}}},
     {"traversal",
      {{"pixel",
@@ -142,7 +145,10 @@ const Evidence kEvidence{
          CHECK(count(rows, "tests") == count(cells, "tests"));
        }}}},
     {"size-class",
-     {{"off", [] { CHECK(count(on(sphere(), {{"size-class", "off"}}), "looks") > 20000); }},
+     {{"off",
+       [] {
+         CHECK(count(on(sphere(), {{"size-class", "off"}}), "looks") > 20000);
+       }},
       {"on",
        [] {
          // Many of the sphere's triangles lie in one cell, which is tested without a look.
@@ -159,8 +165,14 @@ const Evidence kEvidence{
          CHECK(count(shape, "visited") == count(off, "visited"));
        }}}},
     {"tile-word",
-     {{"split", [] { CHECK(!hasCapability({{"tile-word", "split"}, {"wide", "two-word"}}, 11)); }},  // Int64
-      {"packed", [] { CHECK(hasCapability({{"tile-word", "packed"}, {"wide", "two-word"}}, 11)); }}}},
+     {{"split",
+       [] {
+         CHECK(!hasCapability({{"tile-word", "split"}, {"wide", "two-word"}}, 11));
+       }},  // Int64
+      {"packed",
+       [] {
+         CHECK(hasCapability({{"tile-word", "packed"}, {"wide", "two-word"}}, 11));
+       }}}},
     {"lane-width",
      {{"native", [] { CHECK(lanesAtOnce("native") >= 4); }},
       {"4", [] { CHECK(lanesAtOnce("4") == 4); }},
@@ -189,12 +201,21 @@ const Evidence kEvidence{
        [] {
          const Frame frame = on(crossing(), {{"step", "incremental"}});
          CHECK(4 * count(frame, "evaluations") < count(frame, "looks"));
-         CHECK(difference(frame, reference::render(crossing())) == "");
+         CHECK(difference(frame, oracle::render(crossing())) == "");
        }}}},
     {"interpolate",
-     {{"plane", [] { CHECK(depthOf({{"interpolate", "plane"}}) != depthOf({{"interpolate", "cell-plane"}})); }},
-      {"cell-plane", [] { CHECK(depthOf({{"interpolate", "cell-plane"}}) != depthOf({{"interpolate", "weights"}})); }},
-      {"weights", [] { CHECK(depthOf({{"interpolate", "weights"}}) != depthOf({{"interpolate", "plane"}})); }}}},
+     {{"plane",
+       [] {
+         CHECK(depthOf({{"interpolate", "plane"}}) != depthOf({{"interpolate", "cell-plane"}}));
+       }},
+      {"cell-plane",
+       [] {
+         CHECK(depthOf({{"interpolate", "cell-plane"}}) != depthOf({{"interpolate", "weights"}}));
+       }},
+      {"weights",
+       [] {
+         CHECK(depthOf({{"interpolate", "weights"}}) != depthOf({{"interpolate", "plane"}}));
+       }}}},
     {"edge",
      // 32 bits hold a triangle up to 30,000 / 256 pixels; both images are right on either side of it, and so are those
      // beyond.
@@ -206,22 +227,22 @@ const Evidence kEvidence{
            for (const auto& [x, y] : {std::pair{3.0f, 5.0f}, {3.0f + side, 7.0f}, {9.0f, 5.0f + side}})
              scene.clip.emplace_back(x / 256 - 1, y / 256 - 1, 0.5f, 1.0f);
            scene.triangles = {{0, 1, 2}};
-           CHECK(difference(on(scene, {{"edge", "int32"}}), reference::render(scene)) == "");
+           CHECK(difference(on(scene, {{"edge", "int32"}}), oracle::render(scene)) == "");
          }
        }},
       {"int64",
        [] {
-         CHECK(difference(on(sphere(), {{"edge", "int64"}}), reference::render(sphere())) == "");
+         CHECK(difference(on(sphere(), {{"edge", "int64"}}), oracle::render(sphere())) == "");
        }},
       {"float64",
        [] {
          CHECK(hasCapability({{"edge", "float64"}}, 10));   // Float64
          CHECK(!hasCapability({{"edge", "int64"}}, 10));
-         CHECK(difference(on(sphere(), {{"edge", "float64"}}), reference::render(sphere())) == "");
+         CHECK(difference(on(sphere(), {{"edge", "float64"}}), oracle::render(sphere())) == "");
        }},
       {"float32-plane",
        [] {
-         CHECK(on(sphere(), {{"edge", "float32-plane"}}).image.depth != reference::render(sphere()).image.depth);
+         CHECK(on(sphere(), {{"edge", "float32-plane"}}).image.depth != oracle::render(sphere()).image.depth);
        }},
       {"float32-difference",
        [] {
@@ -237,7 +258,7 @@ const Evidence kEvidence{
        [] {
          const Frame frame = on(sphere(), {{"counters", "work"}});
          CHECK(count(frame, "tests") > 0);
-         CHECK(count(frame, "covered") == reference::render(sphere()).counts.covered);
+         CHECK(count(frame, "covered") == oracle::render(sphere()).counts.covered);
        }}}},
     {"shade",
      {{"none",

@@ -46,7 +46,7 @@ std::vector<Variant> orderPaths(const DeviceInfo& device) {
 
 TEST_CASE("Shuffled workgroups and numbers of threads change no bit", "[order]") {
   const Scene scene = crowdedScene();
-  const reference::Result oracle = reference::render(scene);
+  const oracle::Result oracle = oracle::render(scene);
   for (const unsigned threads : {1u, 2u, 8u})
     for (const std::uint64_t seed : {0, 1, 2, 3}) {
       Machine machine("cpu", "cpp", makeCpuDevice({.threads = threads, .shuffleSeed = seed}));

@@ -15,7 +15,7 @@ using namespace tessera;
 namespace {
 
 bool isFinite(const Scene& scene) {
-  for (const glm::vec4& c : reference::transform(scene))
+  for (const glm::vec4& c : oracle::transform(scene))
     for (int i = 0; i < 4; ++i)
       if (!std::isfinite(c[i])) return false;
   return true;
@@ -57,17 +57,17 @@ PLACE_TEST_CASE("Stages write the same on every machine", "[stages]") {
 PLACE_TEST_CASE("Stages write what the oracle has", "[stages]") {
   for (const Scene& scene : scenes()) {
     INFO(scene.name);
-    const reference::Result oracle = reference::render(scene);
+    const oracle::Result oracle = oracle::render(scene);
     const Frame frame = machine.render(scene, {}, {.keepStages = true});
 
-    const std::vector<glm::vec4> clip = reference::transform(scene);
+    const std::vector<glm::vec4> clip = oracle::transform(scene);
     const StageOutput& transformed = output(frame, "transform");
     REQUIRE(transformed.values.size() == 4 * clip.size());
     CHECK(std::memcmp(transformed.values.data(), clip.data(), clip.size() * sizeof(glm::vec4)) == 0);
 
     // Each piece of setup is one of the oracle's; setup leaves those out that hold no sample of the raster.
     std::vector<std::array<std::uint32_t, 10>> expected;
-    for (const reference::Piece& p : reference::pieces(scene, {})) {
+    for (const oracle::Piece& p : oracle::pieces(scene, {})) {
       auto& e = expected.emplace_back();
       for (std::size_t i = 0; i < 3; ++i) {
         e[2 * i] = static_cast<std::uint32_t>(p.x[i]);

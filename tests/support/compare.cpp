@@ -35,7 +35,7 @@ std::string difference(const Framebuffer& got, const Framebuffer& expected) {
       d.attribute.value_or(0), d.firstX, d.firstY, pixelText(got, k), pixelText(expected, k));
 }
 
-std::string difference(const Counters& got, const reference::Counts& expected) {
+std::string difference(const Counters& got, const oracle::Counts& expected) {
   const std::pair<const char*, std::uint64_t> counts[] = {
       {"submitted", expected.submitted}, {"badIndex", expected.badIndex}, {"nonFinite", expected.nonFinite},
       {"outside", expected.outside},     {"clipped", expected.clipped},   {"behind", expected.behind},
@@ -45,7 +45,7 @@ std::string difference(const Counters& got, const reference::Counts& expected) {
   return "";
 }
 
-std::string difference(const Frame& got, const reference::Result& expected) {
+std::string difference(const Frame& got, const oracle::Result& expected) {
   const std::string image = difference(got.image, expected.image);
   return image.empty() ? difference(got.counters, expected.counts) : image;
 }

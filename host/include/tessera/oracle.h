@@ -11,7 +11,7 @@
 #include <vector>
 
 /// The oracle, which shares no code with the kernels.
-namespace tessera::reference {
+namespace tessera::oracle {
 
 /// Which sides of triangles are dropped: the values of the axis `cull`.
 enum class Cull {
@@ -101,4 +101,4 @@ struct AttributeError {
 /// Measures the attribute of a frame, which any device may have rendered. The frame has to hold ids and attribute.
 AttributeError attributeError(const Scene& scene, const ImageAxes& axes, const Framebuffer& frame);
 
-}  // namespace tessera::reference
+}  // namespace tessera::oracle
