@@ -82,7 +82,7 @@ void writePicture(Run& run, std::size_t number, const Framebuffer& image, const 
         .write(
             image.width, image.height,
             [&](std::uint32_t begin, std::uint32_t end, glm::vec3* out) {
-              paintDifference(expected, image, begin, end, out);
+              images::paintDifference(expected, image, begin, end, out);
             },
             facts);
   } catch (const Error& error) {  // which has the name

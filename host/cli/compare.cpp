@@ -35,7 +35,7 @@ struct CompareOptions {
 
 /// What is held against each other, the options read.
 struct Request {
-  Tolerances within, limits;
+  images::Tolerances within, limits;
   std::set<std::string> limited;  // channels that --at-most names, by 0, too
   std::uint64_t maxUnpacked = 0;  // bytes; 0: by the files' sizes
   double allowed = 0;             // pixels, or per cent of them
@@ -77,15 +77,15 @@ std::uint64_t bytesOf(const std::string& text, const std::string& option) {
   return number << shift;
 }
 
-Tolerances tolerancesOf(const std::vector<std::string>& texts, const std::string& option) {
-  Tolerances result;
+images::Tolerances tolerancesOf(const std::vector<std::string>& texts, const std::string& option) {
+  images::Tolerances result;
   std::set<std::pair<std::string, bool>> given;  // a channel, in steps or not
   for (const std::string& text : texts) {
     const std::string named = fmt::format("{} {}", option, text), channel = text.substr(0, text.find('='));
-    Amount* const amount = channel == "depth"    ? &result.depth
-                           : channel == "values" ? &result.attribute
-                           : channel == "colour" ? &result.colour
-                                                 : nullptr;
+    images::Amount* const amount = channel == "depth"    ? &result.depth
+                                   : channel == "values" ? &result.attribute
+                                   : channel == "colour" ? &result.colour
+                                                         : nullptr;
     if (!amount || channel.size() == text.size())
       failUsage(
           fmt::format("{}: takes depth=, values= or colour= and an amount, as in depth=1e-6 or colour=4ulp", named));
@@ -161,7 +161,7 @@ std::string factsText(const CompareOptions& options, const OtherFacts& facts) {
 
 /// The three that one reading fills.
 struct Outcome {
-  Comparison bits, within, limits;
+  images::Comparison bits, within, limits;
   Framebuffer a, b;  // of the last rows, for what they hold
   OtherFacts facts;
 };
@@ -189,15 +189,19 @@ Verdict verdictOf(const Request& request, const Outcome& outcome) {
 /// Reads both, and writes the picture of where they differ, a band of rows at a time.
 Outcome compareFiles(const CompareOptions& options, const Request& request, std::optional<ImageOutput>& output) {
   ImageReader a(options.a, request.maxUnpacked), b(options.b, request.maxUnpacked);
-  Outcome outcome{Comparison(), Comparison(request.within),      Comparison(request.limits), {},
-                  {},           otherFacts(a.facts(), b.facts())};
+  Outcome outcome{images::Comparison(),
+                  images::Comparison(request.within),
+                  images::Comparison(request.limits),
+                  {},
+                  {},
+                  otherFacts(a.facts(), b.facts())};
   if (a.width() != b.width() || a.height() != b.height())
     failUsage(fmt::format("the images are {} x {} and {} x {} pixels; they should have one size", a.width(), a.height(),
                           b.width(), b.height()));
   const auto readRows = [&](std::uint32_t begin, std::uint32_t end) {
     a.read(begin, end, outcome.a);
     b.read(begin, end, outcome.b);
-    for (Comparison* comparison : {&outcome.bits, &outcome.within, &outcome.limits})
+    for (images::Comparison* comparison : {&outcome.bits, &outcome.within, &outcome.limits})
       comparison->add(outcome.a, outcome.b);
   };
   if (output) {
@@ -209,7 +213,7 @@ Outcome compareFiles(const CompareOptions& options, const Request& request, std:
         a.width(), a.height(),
         [&](std::uint32_t begin, std::uint32_t end, glm::vec3* out) {
           readRows(begin, end);
-          paintDifference(outcome.a, outcome.b, 0, end - begin, out, request.within);
+          images::paintDifference(outcome.a, outcome.b, 0, end - begin, out, request.within);
         },
         facts);
     return outcome;
@@ -232,7 +236,7 @@ std::string outcomeText(const CompareOptions& options, const Request& request, c
   if (!options.output.empty()) text += fmt::format("wrote {}\n", options.output);
   if (verdict.code == ExitCode::kDone) return text;
   // Of what counts: beyond the limits where nothing is beyond the tolerances.
-  const Comparison& shown = within.equal() ? outcome.limits : outcome.within;
+  const images::Comparison& shown = within.equal() ? outcome.limits : outcome.within;
   return text + firstPixel(shown.difference(), {options.a, shown.firstOfA()}, {options.b, shown.firstOfB()}) + '\n';
 }
 

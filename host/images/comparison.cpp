@@ -24,7 +24,7 @@ std::int64_t stepOf(float value) {
 double apart(float a, float b) { return std::abs(static_cast<double>(a) - static_cast<double>(b)); }
 double stepsApart(float a, float b) { return static_cast<double>(std::abs(stepOf(a) - stepOf(b))); }
 
-bool differ(float a, float b, const Amount& amount) {
+bool differ(float a, float b, const images::Amount& amount) {
   if (std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b)) return false;
   if (!amount.any()) return true;
   if (std::isnan(a) || std::isnan(b)) return !(std::isnan(a) && std::isnan(b));
@@ -34,7 +34,7 @@ bool differ(float a, float b, const Amount& amount) {
 // What both framebuffers hold, read pixel by pixel.
 class Pair {
  public:
-  Pair(const Framebuffer& a, const Framebuffer& b, const Tolerances& tolerances)
+  Pair(const Framebuffer& a, const Framebuffer& b, const images::Tolerances& tolerances)
       : a_(a),
         b_(b),
         tolerances_(tolerances),
@@ -117,7 +117,7 @@ class Pair {
     return !a.empty() && !b.empty();
   }
   const Framebuffer &a_, &b_;
-  const Tolerances& tolerances_;
+  const images::Tolerances& tolerances_;
   bool ids_, depth_, hits_, colour_;
   struct Both {
     const Channel &a, &b;
@@ -165,6 +165,8 @@ glm::vec3 linear(int r, int g, int b) {
 }
 
 }  // namespace
+
+namespace images {
 
 struct Comparison::State {
   Tolerances tolerances;
@@ -261,11 +263,15 @@ Difference Comparison::difference() const {
   return result;
 }
 
+}  // namespace images
+
 Difference compare(const Framebuffer& a, const Framebuffer& b) {
-  Comparison comparison;
+  images::Comparison comparison;
   comparison.add(a, b);
   return comparison.difference();
 }
+
+namespace images {
 
 void paintDifference(const Framebuffer& a, const Framebuffer& b, std::uint32_t begin, std::uint32_t end, glm::vec3* out,
                      const Tolerances& tolerances) {
@@ -297,9 +303,11 @@ void paintDifference(const Framebuffer& a, const Framebuffer& b, std::uint32_t b
   }
 }
 
+}  // namespace images
+
 std::vector<glm::vec3> differencePicture(const Framebuffer& a, const Framebuffer& b) {
   std::vector<glm::vec3> picture(a.pixels());
-  paintDifference(a, b, 0, a.height, picture.data());
+  images::paintDifference(a, b, 0, a.height, picture.data());
   return picture;
 }
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <memory>
 
-namespace tessera {
+namespace tessera::images {
 
 /// By how much two numbers may differ and still agree: by this or by so many float32 steps. Nothing: by no bit.
 struct Amount {
@@ -42,4 +42,4 @@ class Comparison {
 void paintDifference(const Framebuffer& a, const Framebuffer& b, std::uint32_t begin, std::uint32_t end, glm::vec3* out,
                      const Tolerances& tolerances = {});
 
-}  // namespace tessera
+}  // namespace tessera::images

@@ -14,7 +14,7 @@
 
 #include "host/support/file-faults.h"
 
-namespace tessera {
+namespace tessera::images {
 namespace {
 
 namespace fs = std::filesystem;
@@ -145,4 +145,4 @@ class Header {
 
 void checkExr(const fs::path& path, std::uint64_t limit) { Header(path).check(limit); }
 
-}  // namespace tessera
+}  // namespace tessera::images

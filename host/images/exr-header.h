@@ -4,11 +4,11 @@
 #include <cstdint>
 #include <filesystem>
 
-namespace tessera {
+namespace tessera::images {
 
 /// Refuses (kUsage, one line) what is not a single part of plain scanlines with a sane size, and what takes more than
 /// `limit` bytes once unpacked. 0 is the default limit: 512 MiB, or 1100 times the file's own size where this is more,
 /// as zip, with which images are written, packs 1032 bytes into one at best.
 void checkExr(const std::filesystem::path& path, std::uint64_t limit = 0);
 
-}  // namespace tessera
+}  // namespace tessera::images

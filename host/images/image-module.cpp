@@ -21,7 +21,7 @@ namespace {
 constexpr char kFile[] = "libtessera-image-io.so";
 
 struct Loaded {
-  const imageio::Module* module = nullptr;
+  const images::Module* module = nullptr;
   std::string why;  // there is none
   double milliseconds = 0;
 };
@@ -50,9 +50,9 @@ Loaded load() {
   Loaded result;
   if (result.why = lackOfThreads(); !result.why.empty()) return result;
   void* const library = dlopen(kFile, RTLD_LAZY | RTLD_LOCAL);
-  void* const entry = library ? dlsym(library, imageio::kEntry) : nullptr;
+  void* const entry = library ? dlsym(library, images::kEntry) : nullptr;
   if (entry) {
-    result.module = reinterpret_cast<const imageio::Module* (*)()>(entry)();
+    result.module = reinterpret_cast<const images::Module* (*)()>(entry)();
     if (std::string_view(result.module->version) != TESSERA_MODULE_VERSION) {
       result.why =
           fmt::format("{} is of version {}; {} would be right", kFile, result.module->version, TESSERA_MODULE_VERSION);
@@ -85,11 +85,15 @@ const Loaded& loaded() {
 
 }  // namespace
 
-const imageio::Module& imageModule() {
+namespace images {
+
+const images::Module& imageModule() {
   const Loaded& result = loaded();
   if (!result.module) fail(fmt::format("images can be neither read nor written: {}", result.why));
   return *result.module;
 }
+
+}  // namespace images
 
 void startLoadingImages() {
   const std::lock_guard lock(gate);
@@ -102,7 +106,7 @@ void startLoadingImages() {
 }
 
 double finishLoadingImages() {
-  imageModule();
+  images::imageModule();
   return loaded().milliseconds;
 }
 

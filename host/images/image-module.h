@@ -3,9 +3,9 @@
 
 #include "host/images/image-io/image-io.h"
 
-namespace tessera {
+namespace tessera::images {
 
 /// Throws kFailure with one line where it is missing or cannot be loaded. Thread-safe; loads once.
-const imageio::Module& imageModule();
+const images::Module& imageModule();
 
-}  // namespace tessera
+}  // namespace tessera::images

@@ -20,7 +20,7 @@ namespace tessera {
 namespace {
 
 namespace fs = std::filesystem;
-using imageio::Format;
+using images::Format;
 
 std::string extensionOf(const fs::path& path) {
   std::string extension = path.extension().string();
@@ -75,8 +75,8 @@ auto channelsOf(Frame& frame) {
   return channels;
 }
 
-imageio::Header pngHeader(std::uint32_t width, std::uint32_t height, int channels, const ImageFacts& facts) {
-  imageio::Header header{width, height, {}, facts};
+images::Header pngHeader(std::uint32_t width, std::uint32_t height, int channels, const ImageFacts& facts) {
+  images::Header header{width, height, {}, facts};
   for (int c = 0; c < channels; ++c) header.channels.push_back({{}, "uint8", 1});
   return header;
 }
@@ -109,8 +109,8 @@ struct ImageOutput::State {
 
   explicit State(const std::string& name) : format(formatOf(name)), path(splitName(name).second), file(path) {}
 
-  void write(const imageio::Header& header, const imageio::RowSource& rows) {
-    const std::string why = imageModule().write(file.path().string(), format, header, rows);
+  void write(const images::Header& header, const images::RowSource& rows) {
+    const std::string why = images::imageModule().write(file.path().string(), format, header, rows);
     if (!why.empty()) fail(fmt::format("{}: could not be written: {}", path.string(), file.whyNotWhole(why)));
     file.commit();
   }
@@ -125,7 +125,7 @@ void ImageOutput::write(const Framebuffer& frame, const std::optional<ValueRange
   const auto channels = channelsOf(frame);
   if (channels.empty()) fail(fmt::format("{}: the frame holds nothing to write", path().string()));
   if (state_->format == Format::kPng) {
-    const Picture picture = makePicture(frame, range);
+    const images::Picture picture = images::makePicture(frame, range);
     state_->write(pngHeader(frame.width, frame.height, picture.channels, facts),
                   [&](std::uint32_t begin, std::uint32_t end, std::byte* out) {
                     picture.pixels(std::size_t{begin} * frame.width, std::size_t{end} * frame.width,
@@ -133,7 +133,7 @@ void ImageOutput::write(const Framebuffer& frame, const std::optional<ValueRange
                   });
     return;
   }
-  imageio::Header header{frame.width, frame.height, {}, facts};
+  images::Header header{frame.width, frame.height, {}, facts};
   for (const auto& channel : channels) header.channels.push_back({channel.name, channel.type, kValueBytes});
   state_->write(header, [&](std::uint32_t begin, std::uint32_t end, std::byte* out) {
     for (std::size_t k = std::size_t{begin} * frame.width; k < std::size_t{end} * frame.width; ++k) {
@@ -155,11 +155,11 @@ void ImageOutput::write(std::uint32_t width, std::uint32_t height, const ColourR
     state_->write(pngHeader(width, height, 3, facts), [&](std::uint32_t begin, std::uint32_t end, std::byte* out) {
       make(begin, end);
       auto* next = reinterpret_cast<std::uint8_t*>(out);
-      for (const glm::vec3& colour : colours) next = putSrgb(colour, next);
+      for (const glm::vec3& colour : colours) next = images::putSrgb(colour, next);
     });
     return;
   }
-  imageio::Header header{width, height, {}, facts};
+  images::Header header{width, height, {}, facts};
   for (const char* name : {"R", "G", "B"}) header.channels.push_back({name, "float", kValueBytes});
   state_->write(header, [&](std::uint32_t begin, std::uint32_t end, std::byte* out) {
     make(begin, end);
@@ -174,7 +174,7 @@ void writeImage(const fs::path& path, const Framebuffer& frame, const std::optio
 
 struct ImageReader::State {
   std::string name;
-  std::unique_ptr<imageio::Reader> file;
+  std::unique_ptr<images::Reader> file;
   std::vector<std::byte> rows;
   std::size_t pixelBytes = 0;
   bool ids = false, depth = false, hits = false, colour = false;
@@ -231,9 +231,9 @@ ImageReader::ImageReader(const fs::path& path, std::uint64_t limit) : state_(std
   if (extensionOf(path) != ".exr") failUsage(fmt::format("{}: only an .exr holds ids and depth", s.name));
   // Read twice, from its beginning: a pipe will not do.
   if (const std::string why = support::whyNoFile(path); !why.empty()) failUsage(fmt::format("{}: {}", s.name, why));
-  checkExr(path, limit);
+  images::checkExr(path, limit);
   std::string why;
-  s.file = imageModule().openExr(s.name, why);
+  s.file = images::imageModule().openExr(s.name, why);
   if (!s.file) failUsage(fmt::format("{}: not a whole OpenEXR file: {}", s.name, why));
   s.ids = s.has("id", "uint");
   s.depth = s.has("Z", "float");

@@ -5,7 +5,7 @@
 #include <limits>
 #include <span>
 
-namespace tessera {
+namespace tessera::images {
 namespace {
 
 // IEC 61966-2-1. NaN and what lies outside [0, 1] are kept in it.
@@ -101,4 +101,4 @@ Picture makePicture(const Framebuffer& frame, const std::optional<ValueRange>& r
   return {};
 }
 
-}  // namespace tessera
+}  // namespace tessera::images

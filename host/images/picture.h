@@ -8,7 +8,7 @@
 #include <functional>
 #include <optional>
 
-namespace tessera {
+namespace tessera::images {
 
 /// Made as it is written, so that there is never a second image in memory.
 struct Picture {
@@ -23,4 +23,4 @@ Picture makePicture(const Framebuffer& frame, const std::optional<ValueRange>& r
 /// One linear colour as three bytes of sRGB; what follows them in `out`.
 std::uint8_t* putSrgb(const glm::vec3& linear, std::uint8_t* out);
 
-}  // namespace tessera
+}  // namespace tessera::images

@@ -24,8 +24,8 @@ Framebuffer grey(std::uint32_t extent) {
   return frame;
 }
 
-Difference compare(const Framebuffer& a, const Framebuffer& b, const Tolerances& tolerances) {
-  Comparison comparison(tolerances);
+Difference compare(const Framebuffer& a, const Framebuffer& b, const images::Tolerances& tolerances) {
+  images::Comparison comparison(tolerances);
   comparison.add(a, b);
   return comparison.difference();
 }
@@ -38,16 +38,16 @@ TEST_CASE("a tolerance is an amount or float32 steps and each counts what is bey
   b.depth[0] = std::nextafter(0.5f, 1.0f);
   b.depth[1] = 0.5f + 0x1p-10f;
   CHECK(compare(a, b, {}).depth == 2);
-  CHECK(compare(a, b, Tolerances{.depth = {0, 1}, .attribute = {}, .colour = {}}).depth == 1);
-  CHECK(compare(a, b, Tolerances{.depth = {0x1p-24, 0}, .attribute = {}, .colour = {}}).depth == 1);
-  CHECK(compare(a, b, Tolerances{.depth = {0x1p-10, 0}, .attribute = {}, .colour = {}}).equal());
-  CHECK(compare(a, b, Tolerances{.depth = {0x1p-10, 0}, .attribute = {}, .colour = {}}).depthMaxAbs ==
+  CHECK(compare(a, b, images::Tolerances{.depth = {0, 1}, .attribute = {}, .colour = {}}).depth == 1);
+  CHECK(compare(a, b, images::Tolerances{.depth = {0x1p-24, 0}, .attribute = {}, .colour = {}}).depth == 1);
+  CHECK(compare(a, b, images::Tolerances{.depth = {0x1p-10, 0}, .attribute = {}, .colour = {}}).equal());
+  CHECK(compare(a, b, images::Tolerances{.depth = {0x1p-10, 0}, .attribute = {}, .colour = {}}).depthMaxAbs ==
         0x1p-10);  // it says how far they are apart
-  CHECK(compare(a, b, Tolerances{.depth = {}, .attribute = {}, .colour = {1, 0}}).depth == 2);
+  CHECK(compare(a, b, images::Tolerances{.depth = {}, .attribute = {}, .colour = {1, 0}}).depth == 2);
   b = a;
   b.colour[3].z = 0.75f;
-  CHECK(compare(a, b, Tolerances{.depth = {}, .attribute = {}, .colour = {0.25, 0}}).colour == 0);
-  CHECK(compare(a, b, Tolerances{.depth = {}, .attribute = {}, .colour = {0.2, 0}}).colour == 1);
+  CHECK(compare(a, b, images::Tolerances{.depth = {}, .attribute = {}, .colour = {0.25, 0}}).colour == 0);
+  CHECK(compare(a, b, images::Tolerances{.depth = {}, .attribute = {}, .colour = {0.2, 0}}).colour == 1);
   CHECK(compare(a, b, {}).colourMax == 0.25);
 }
 
@@ -55,10 +55,10 @@ TEST_CASE("no tolerance takes a number for what is none") {
   Framebuffer a = grey(2), b = a;
   valuesOf(a) = {kNan, kNan, kInfinity, std::numeric_limits<float>::max()};
   valuesOf(b) = {kNan, 0, std::numeric_limits<float>::max(), -kInfinity};
-  CHECK(compare(a, b, Tolerances{.depth = {}, .attribute = {1e300, 1e9}, .colour = {}}).attribute == 3);
+  CHECK(compare(a, b, images::Tolerances{.depth = {}, .attribute = {1e300, 1e9}, .colour = {}}).attribute == 3);
   valuesOf(b)[0] = -kNan;
   CHECK(compare(a, b, {}).attribute == 4);
-  CHECK(compare(a, b, Tolerances{.depth = {}, .attribute = {0, 1}, .colour = {}}).attribute == 3);
+  CHECK(compare(a, b, images::Tolerances{.depth = {}, .attribute = {0, 1}, .colour = {}}).attribute == 3);
 }
 
 TEST_CASE("rows that come one after the other make the whole") {
@@ -66,7 +66,7 @@ TEST_CASE("rows that come one after the other make the whole") {
   b.ids[6] = 2;
   b.ids[9] = kNoTriangle;
   const Difference whole = compare(a, b, {});
-  Comparison rows;
+  images::Comparison rows;
   for (std::size_t y = 0; y < 4; ++y) {
     const auto row = [&](const Framebuffer& frame) {
       Framebuffer one = grey(4);

@@ -10,7 +10,7 @@
 #include <fstream>
 #include <string_view>
 
-namespace tessera::imageio {
+namespace tessera::images {
 namespace {
 
 using OIIO::TypeDesc;
@@ -176,4 +176,4 @@ extern "C" __attribute__((visibility("default"))) const Module* tesseraImageIo()
   return &module;
 }
 
-}  // namespace tessera::imageio
+}  // namespace tessera::images

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace tessera::imageio {
+namespace tessera::images {
 
 enum class Format { kPng, kExr };
 
@@ -49,4 +49,4 @@ struct Module {
 /// The module's one symbol, of type `const Module* ()`.
 inline constexpr char kEntry[] = "tesseraImageIo";
 
-}  // namespace tessera::imageio
+}  // namespace tessera::images
