@@ -122,7 +122,7 @@ void read(benchmark::State& state, const Case& one, const std::string& path) {
   for (auto _ : state) {
     const double begin = threadSeconds();
     {
-      Mesh read = readMeshAsItIs(path, {}, {});
+      Mesh read = datasets::readMeshAsItIs(path, {}, {});
       benchmark::DoNotOptimize(read.triangles.data());
     }
     const double took = threadSeconds() - begin;
@@ -143,7 +143,7 @@ void normals(benchmark::State& state) {
     Mesh copy = mesh();
     copy.normals.clear();
     state.ResumeTiming();
-    completeNormals(copy);
+    datasets::completeNormals(copy);
   }
   state.SetLabel("completeNormals(), which follows where a file has none");
 }

@@ -5,10 +5,10 @@
 
 #include "host/support/suggest.h"
 
-namespace tessera {
+namespace tessera::datasets {
 
 void failAttribute(const std::string& place, const std::string& name, const std::vector<std::string>& present) {
   failUsage(fmt::format("{}: no attribute '{}'; {}", place, name, support::whatThereIs(name, present)));
 }
 
-}  // namespace tessera
+}  // namespace tessera::datasets

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace tessera {
+namespace tessera::datasets {
 
 inline const std::vector<std::string> kCoordinates{"x", "y", "z"};  ///< what every mesh has
 
@@ -13,4 +13,4 @@ inline const std::vector<std::string> kCoordinates{"x", "y", "z"};  ///< what ev
 [[noreturn]] void failAttribute(const std::string& place, const std::string& name,
                                 const std::vector<std::string>& present);
 
-}  // namespace tessera
+}  // namespace tessera::datasets

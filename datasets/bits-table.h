@@ -9,7 +9,7 @@
 
 #include "datasets/huge-pages.h"
 
-namespace tessera {
+namespace tessera::datasets {
 
 /// Open addressing. A slot holds its key, so that a look into the table touches one place in memory.
 template <class Word, std::size_t kWords>
@@ -71,4 +71,4 @@ class BitsTable {
   std::uint32_t count_ = 0;  ///< keys
 };
 
-}  // namespace tessera
+}  // namespace tessera::datasets

@@ -13,7 +13,7 @@ namespace tessera {
 namespace {
 
 /// `slope` is the tangent of half the vertical angle. In double, and rounded once.
-Matrix clipFromWorld(const Camera& camera, double slope, double aspect) {
+Matrix clipFromWorld(const datasets::Camera& camera, double slope, double aspect) {
   const double top = slope * camera.near, right = top * aspect;
   // Bottom and top change places: y points down in Vulkan's clip space.
   glm::dmat4 clip = glm::frustumRH_ZO(-right, right, top, -top, camera.near, camera.far) *
@@ -31,15 +31,19 @@ Matrix clipFromWorld(const Camera& camera, double slope, double aspect) {
 
 }  // namespace
 
+namespace datasets {
+
 Matrix perspective(const Camera& camera, std::uint32_t width, std::uint32_t height) {
   return clipFromWorld(camera, std::tan(camera.fov * (3.141592653589793 / 360)), double(width) / height);
 }
 
+}  // namespace datasets
+
 Matrix frameCamera(const Scene& scene) {
   const auto at = [&](std::size_t v) { return glm::dvec3(scene.positions[v]); };
-  const std::vector<bool> drawn = drawnVertices(scene.positions.size(), scene.triangles.span(), at);
+  const std::vector<bool> drawn = datasets::drawnVertices(scene.positions.size(), scene.triangles.span(), at);
   std::vector<glm::dvec3> points;
-  Box box;
+  datasets::Box box;
   for (std::size_t v = 0; v < drawn.size(); ++v) {
     if (!drawn[v]) continue;
     points.push_back(at(v));
@@ -61,10 +65,10 @@ Matrix frameCamera(const Scene& scene) {
     farthest = std::fmin(farthest, z);
   }
   distance = std::fmax(distance, nearest + 0.1 * size);
-  const Camera camera{.eye = centre + back * distance,
-                      .target = centre,
-                      .near = 0.9 * (distance - nearest),
-                      .far = 1.1 * (distance - farthest)};
+  const datasets::Camera camera{.eye = centre + back * distance,
+                                .target = centre,
+                                .near = 0.9 * (distance - nearest),
+                                .far = 1.1 * (distance - farthest)};
   return clipFromWorld(camera, slope, aspect);
 }
 

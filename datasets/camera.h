@@ -4,7 +4,7 @@
 
 #include <glm/vec3.hpp>
 
-namespace tessera {
+namespace tessera::datasets {
 
 /// A perspective camera in world units; `fov` is the vertical angle in degrees.
 struct Camera {
@@ -14,4 +14,4 @@ struct Camera {
 /// Vulkan's clip space: y down, 0 <= z <= w. The camera must have passed the checks of scene-file.cpp.
 Matrix perspective(const Camera& camera, std::uint32_t width, std::uint32_t height);
 
-}  // namespace tessera
+}  // namespace tessera::datasets

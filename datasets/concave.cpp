@@ -10,7 +10,7 @@
 
 #include "datasets/faces.h"
 
-namespace tessera {
+namespace tessera::datasets {
 namespace {
 
 /// How deep a corner may be set back, against the length of the outline, before a polygon counts as not convex. Corners
@@ -157,4 +157,4 @@ bool cutConcave(const std::vector<glm::dvec3>& positions, std::span<Triangle> fa
   return true;
 }
 
-}  // namespace tessera
+}  // namespace tessera::datasets

@@ -4,7 +4,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-namespace tessera {
+namespace tessera::datasets {
 
 bool withinFloat32(const glm::dvec3& point) {
   constexpr double most = std::numeric_limits<float>::max();
@@ -36,4 +36,4 @@ glm::dvec3 originOf(const Box& box) {
   return {rounded(centre.x), rounded(centre.y), rounded(centre.z)};
 }
 
-}  // namespace tessera
+}  // namespace tessera::datasets

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-namespace tessera {
+namespace tessera::datasets {
 
 /// No coordinate is NaN or beyond float32.
 bool withinFloat32(const glm::dvec3& point);
@@ -41,4 +41,4 @@ struct Box {
 /// diagonal. So points near 0 keep every bit, and points that move by a multiple of that power change none.
 glm::dvec3 originOf(const Box& box);
 
-}  // namespace tessera
+}  // namespace tessera::datasets

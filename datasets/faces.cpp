@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <tessera/error.h>
 
-namespace tessera {
+namespace tessera::datasets {
 
 void Faces::add(std::span<const std::uint32_t> corners) {
   auto& triangles = mesh_.triangles;
@@ -33,4 +33,4 @@ void Faces::finish() {
         fmt::format("{} fewer than three corners and no triangle", some(short_, "face has", "faces have")));
 }
 
-}  // namespace tessera
+}  // namespace tessera::datasets

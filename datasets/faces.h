@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-namespace tessera {
+namespace tessera::datasets {
 
 /// Takes the faces of a mesh in the file's order. A polygon of n corners becomes n - 2 triangles in its place.
 class Faces {
@@ -33,4 +33,4 @@ class Faces {
 /// finite), whose fan is as good as any other.
 bool cutConcave(const std::vector<glm::dvec3>& positions, std::span<Triangle> fan);
 
-}  // namespace tessera
+}  // namespace tessera::datasets

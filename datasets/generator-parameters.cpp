@@ -12,18 +12,18 @@
 namespace tessera {
 namespace {
 
-std::string rangeText(const GeneratorParameter& p) {
+std::string rangeText(const datasets::GeneratorParameter& p) {
   if (!p.choices.empty()) return fmt::format("{}", fmt::join(p.choices, " or "));
   return fmt::format("{}{} to {}", p.whole ? "" : "real ", p.least, p.most);
 }
 
-double parseValue(const Generator& generator, const GeneratorParameter& p, std::string_view text) {
+double parseValue(const datasets::Generator& generator, const datasets::GeneratorParameter& p, std::string_view text) {
   if (!p.choices.empty()) {
     const auto found = std::ranges::find(p.choices, text);
     if (found != p.choices.end()) return static_cast<double>(found - p.choices.begin());
   } else {
-    const auto whole = toInteger(text);
-    const auto real = toReal(text);
+    const auto whole = datasets::toInteger(text);
+    const auto real = datasets::toReal(text);
     const double value = whole ? static_cast<double>(*whole) : real && !p.whole ? double{*real} : std::nan("");
     if (value >= p.least && value <= p.most) return value;
   }
@@ -31,6 +31,8 @@ double parseValue(const Generator& generator, const GeneratorParameter& p, std::
 }
 
 }  // namespace
+
+namespace datasets {
 
 ParsedGenerator parseGenerator(std::string_view spec) {
   const std::size_t question = std::min(spec.find('?'), spec.size());
@@ -67,10 +69,12 @@ ParsedGenerator parseGenerator(std::string_view spec) {
   return parsed;
 }
 
+}  // namespace datasets
+
 const std::vector<GeneratorDoc>& generatorDocs() {
   static const std::vector<GeneratorDoc> docs = [] {
     std::vector<GeneratorDoc> list;
-    for (const Generator& generator : generators()) {
+    for (const datasets::Generator& generator : datasets::generators()) {
       std::string parameters;
       for (const auto& p : generator.parameters) {
         const std::string initial =

@@ -5,7 +5,7 @@
 #include "datasets/generators.h"
 #include "datasets/random.h"
 
-namespace tessera {
+namespace tessera::datasets {
 namespace {
 
 constexpr double kPixel = 2.0 / 2048;  // sizes in pixels are those of a raster of 2048 x 2048
@@ -145,4 +145,4 @@ std::vector<Generator> flatGenerators() {
   };
 }
 
-}  // namespace tessera
+}  // namespace tessera::datasets

@@ -4,7 +4,7 @@
 
 #include "datasets/generators.h"
 
-namespace tessera {
+namespace tessera::datasets {
 namespace {
 
 using HalfedgeMesh = OpenMesh::TriMesh_ArrayKernelT<>;
@@ -95,4 +95,4 @@ std::vector<Generator> solidGenerators() {
   };
 }
 
-}  // namespace tessera
+}  // namespace tessera::datasets

@@ -6,6 +6,8 @@
 
 namespace tessera {
 
+namespace datasets {
+
 const std::vector<Generator>& generators() {
   static const std::vector<Generator> all = [] {
     std::vector<Generator> list = solidGenerators();
@@ -15,12 +17,16 @@ const std::vector<Generator>& generators() {
   return all;
 }
 
+}  // namespace datasets
+
 Mesh generateMesh(const std::string& spec) {
-  const auto [generator, values] = parseGenerator(spec);
+  const auto [generator, values] = datasets::parseGenerator(spec);
   Mesh mesh = generator->make(values);
-  completeNormals(mesh);
+  datasets::completeNormals(mesh);
   return mesh;
 }
+
+namespace datasets {
 
 glm::dvec2 circlePoint(double part) {
   // The eighth of the circle that is nearest to an axis, by Taylor series: at most pi/4, where term 18 is below 1e-17.
@@ -44,5 +50,7 @@ glm::dvec2 circlePoint(double part) {
       return {sine, -cosine};
   }
 }
+
+}  // namespace datasets
 
 }  // namespace tessera

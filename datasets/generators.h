@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace tessera {
+namespace tessera::datasets {
 
 struct GeneratorParameter {
   std::string name;
@@ -45,4 +45,4 @@ ParsedGenerator parseGenerator(std::string_view spec);
 /// The point at `part` of the unit circle: (cos, sin) of 2 pi part; an error below 1e-15.
 glm::dvec2 circlePoint(double part);
 
-}  // namespace tessera
+}  // namespace tessera::datasets

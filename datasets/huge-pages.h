@@ -11,7 +11,7 @@
 #include <type_traits>
 #include <vector>
 
-namespace tessera {
+namespace tessera::datasets {
 
 /// Asks for huge pages where whole ones lie in the range; without them nothing changes but the time.
 inline void preferHugePages(void* begin, std::size_t bytes) {
@@ -45,4 +45,4 @@ std::unique_ptr<T[], FreeMemory> zeros(std::size_t count) {
   return std::unique_ptr<T[], FreeMemory>(memory);
 }
 
-}  // namespace tessera
+}  // namespace tessera::datasets

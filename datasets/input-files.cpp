@@ -6,7 +6,7 @@
 #include "datasets/text.h"
 #include "host/support/text.h"
 
-namespace tessera {
+namespace tessera::datasets {
 namespace {
 
 namespace fs = std::filesystem;
@@ -42,4 +42,4 @@ std::vector<fs::path> inputFiles(const std::string& input) {
   return files;
 }
 
-}  // namespace tessera
+}  // namespace tessera::datasets

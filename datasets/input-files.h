@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-namespace tessera {
+namespace tessera::datasets {
 
 /// The files that loadInput() reads: the input, and those that a scene names. Nothing is said of what is wrong with
 /// them.
 std::vector<std::filesystem::path> inputFiles(const std::string& input);
 
-}  // namespace tessera
+}  // namespace tessera::datasets

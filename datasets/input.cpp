@@ -26,6 +26,8 @@ void setSize(Scene& scene, std::uint32_t width, std::uint32_t height) {
 
 }  // namespace
 
+namespace datasets {
+
 Source loadSource(const std::string& source, const std::filesystem::path& folder, const AttributeRequest& attribute,
                   const ReadProgress& progress) {
   if (source.starts_with(kInstalledMesh))
@@ -36,28 +38,30 @@ Source loadSource(const std::string& source, const std::filesystem::path& folder
   return {generateMesh(spec), parseGenerator(spec).generator->flat};
 }
 
+}  // namespace datasets
+
 Scene loadInput(const std::string& input, std::uint32_t width, std::uint32_t height, const AttributeRequest& attribute,
                 const ReadProgress& progress) {
   const std::filesystem::path path = input;
-  const bool generated = input.starts_with(kGenerate), installed = input.starts_with(kInstalledMesh);
+  const bool generated = input.starts_with(kGenerate), installed = input.starts_with(datasets::kInstalledMesh);
   const std::string extension = generated || installed ? "" : support::lowerCase(path.extension().string());
   Scene scene;
   setSize(scene, width, height);
-  if (extension == ".toml") return readSceneFile(path, width, height, attribute, progress);
+  if (extension == ".toml") return datasets::readSceneFile(path, width, height, attribute, progress);
   if (extension == ".replay") {
     scene = readReplay(path);
     setSize(scene, width, height);
     if (!attribute.name.empty() && scene.stream(attribute.name) == nullptr)
-      failAttribute(input, attribute.name, support::namesOf(scene.streams, &Stream::name));
+      datasets::failAttribute(input, attribute.name, support::namesOf(scene.streams, &Stream::name));
     return scene;
   }
   scene.name = generated   ? input.substr(kGenerate.size())
-               : installed ? input.substr(kInstalledMesh.size())
+               : installed ? input.substr(datasets::kInstalledMesh.size())
                            : path.stem().string();
-  Source source = loadSource(input, "", attribute, progress);
-  std::vector<PlacedMesh> meshes;
+  datasets::Source source = datasets::loadSource(input, "", attribute, progress);
+  std::vector<datasets::PlacedMesh> meshes;
   meshes.push_back({input, std::move(source.mesh), {}});
-  placeMeshes(scene, std::move(meshes), attribute);
+  datasets::placeMeshes(scene, std::move(meshes), attribute);
   scene.clipFromObject = source.flat ? kIdentity : frameCamera(scene);
   return scene;
 }
@@ -66,7 +70,7 @@ void append(Scene& scene, const Mesh& mesh) {
   std::vector<glm::vec3> positions;
   positions.reserve(mesh.positions.size());
   for (const glm::dvec3& p : mesh.positions) positions.emplace_back(p - scene.origin);
-  appendPlaced(scene, mesh, positions);
+  datasets::appendPlaced(scene, mesh, positions);
 }
 
 /// Normals of vertices without one: (0, 0, 1), up to so many.
@@ -74,6 +78,8 @@ static void fillNormals(std::vector<float>& normals, std::size_t vertices) {
   normals.reserve(3 * vertices);
   while (normals.size() < 3 * vertices) normals.insert(normals.end(), {0.0f, 0.0f, 1.0f});
 }
+
+namespace datasets {
 
 void appendPlaced(Scene& scene, const Mesh& mesh, const std::vector<glm::vec3>& positions) {
   if (!scene.clip.empty()) fail("a mesh cannot be appended to a scene of clip-space positions");
@@ -102,5 +108,7 @@ void appendPlaced(Scene& scene, const Mesh& mesh, const std::vector<glm::vec3>& 
     scene.triangles.push_back(t);
   }
 }
+
+}  // namespace datasets
 
 }  // namespace tessera

@@ -14,7 +14,7 @@
 #include "host/support/subprocess.h"
 #include "host/support/suggest.h"
 
-namespace tessera {
+namespace tessera::datasets {
 
 namespace fs = std::filesystem;
 
@@ -119,4 +119,4 @@ fs::path installedMesh(std::string_view name) {
   return mesh;
 }
 
-}  // namespace tessera
+}  // namespace tessera::datasets

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace tessera {
+namespace tessera::datasets {
 
 inline constexpr std::string_view kInstalledMesh = "mesh:";
 
@@ -17,4 +17,4 @@ std::filesystem::path installedMesh(std::string_view name);
 /// The names that there are, sorted; none where the archive is not installed. Listed once, beside the unpacked meshes.
 std::vector<std::string> installedMeshes();
 
-}  // namespace tessera
+}  // namespace tessera::datasets

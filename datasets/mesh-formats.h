@@ -7,7 +7,7 @@
 #include "datasets/scanner.h"
 #include "datasets/text.h"
 
-namespace tessera {
+namespace tessera::datasets {
 
 Mesh readObj(const FileText& file);
 Mesh readOff(const FileText& file);
@@ -18,4 +18,4 @@ Mesh readStl(InputFile& file, const ReadProgress& progress);
 /// readMesh() before completeNormals().
 Mesh readMeshAsItIs(const std::filesystem::path& path, const AttributeRequest& attribute, const ReadProgress& progress);
 
-}  // namespace tessera
+}  // namespace tessera::datasets

@@ -5,7 +5,7 @@
 
 #include "datasets/extent.h"
 
-namespace tessera {
+namespace tessera::datasets {
 
 void completeNormals(Mesh& mesh) {
   const std::size_t count = mesh.positions.size();
@@ -37,4 +37,4 @@ void completeNormals(Mesh& mesh) {
   }
 }
 
-}  // namespace tessera
+}  // namespace tessera::datasets

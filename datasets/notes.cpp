@@ -10,7 +10,7 @@
 
 #include "datasets/extent.h"
 
-namespace tessera {
+namespace tessera::datasets {
 namespace {
 
 /// A rounding is worth a line from this part of the mean edge on: where triangles are as large as pixels, it is the
@@ -116,4 +116,4 @@ void noteUnseen(Scene& scene, const std::string& file) {
   scene.notes.push_back(fmt::format("{}: the camera sees nothing: all triangles lie {}", file, kWhere[where]));
 }
 
-}  // namespace tessera
+}  // namespace tessera::datasets

@@ -6,7 +6,7 @@
 
 #include "datasets/placing.h"
 
-namespace tessera {
+namespace tessera::datasets {
 
 /// Of a mesh whose vertices stand in the scene from `first` on: that it shows nothing, or how coarse float32 is for it.
 void noteMesh(Scene& scene, const PlacedMesh& placed, const std::vector<bool>& drawn, std::size_t first);
@@ -14,4 +14,4 @@ void noteMesh(Scene& scene, const PlacedMesh& placed, const std::vector<bool>& d
 /// That a camera sees none of the scene's triangles, where one of its planes shows it.
 void noteUnseen(Scene& scene, const std::string& file);
 
-}  // namespace tessera
+}  // namespace tessera::datasets

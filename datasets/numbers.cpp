@@ -5,7 +5,7 @@
 #include <charconv>
 #include <cmath>
 
-namespace tessera {
+namespace tessera::datasets {
 namespace {
 
 /// from_chars takes no plus sign, files do.
@@ -81,4 +81,4 @@ std::optional<float> toReal(std::string_view word) {
   return std::isfinite(single) ? std::optional(single) : std::nullopt;
 }
 
-}  // namespace tessera
+}  // namespace tessera::datasets

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string_view>
 
-namespace tessera {
+namespace tessera::datasets {
 
 /// The whole word as an integer, if it is one that fits.
 std::optional<std::int64_t> toInteger(std::string_view word);
@@ -58,4 +58,4 @@ inline bool takeShortDecimal(const char*& at, const char* end, double& value) {
   return true;
 }
 
-}  // namespace tessera
+}  // namespace tessera::datasets

@@ -13,7 +13,7 @@
 #include "datasets/mesh-formats.h"
 #include "datasets/text.h"
 
-namespace tessera {
+namespace tessera::datasets {
 namespace {
 
 /// What has no triangles (vertex data, points, lines, grouping, display and materials), by the format's specification
@@ -199,4 +199,4 @@ class Reader {
 
 Mesh readObj(const FileText& file) { return Reader(file).read(); }
 
-}  // namespace tessera
+}  // namespace tessera::datasets

@@ -9,7 +9,7 @@
 #include "datasets/mesh-formats.h"
 #include "datasets/text.h"
 
-namespace tessera {
+namespace tessera::datasets {
 namespace {
 
 struct Header {
@@ -152,4 +152,4 @@ Mesh readOff(const FileText& file) {
   }
 }
 
-}  // namespace tessera
+}  // namespace tessera::datasets

@@ -10,7 +10,7 @@
 #include "datasets/extent.h"
 #include "datasets/notes.h"
 
-namespace tessera {
+namespace tessera::datasets {
 namespace {
 
 Matrix rounded(const support::DoubleMatrix& m) {
@@ -113,4 +113,4 @@ Matrix clipFromPositions(const support::DoubleMatrix& clipFromInput, const glm::
   return rounded(support::translated(clipFromInput, origin));
 }
 
-}  // namespace tessera
+}  // namespace tessera::datasets

@@ -8,7 +8,7 @@
 
 #include "host/support/matrix.h"
 
-namespace tessera {
+namespace tessera::datasets {
 
 struct PlacedMesh {
   std::string name;  ///< for messages
@@ -25,4 +25,4 @@ void placeMeshes(Scene& scene, std::vector<PlacedMesh> meshes, const AttributeRe
 /// double.
 Matrix clipFromPositions(const support::DoubleMatrix& clipFromInput, const glm::dvec3& origin);
 
-}  // namespace tessera
+}  // namespace tessera::datasets

@@ -16,7 +16,7 @@
 #include "datasets/ply-header.h"
 #include "datasets/text.h"
 
-namespace tessera {
+namespace tessera::datasets {
 
 /// What is being read, for messages.
 struct PlyPlace {
@@ -177,4 +177,4 @@ class PlyBytes {
   const PlyPlace& place_;
 };
 
-}  // namespace tessera
+}  // namespace tessera::datasets

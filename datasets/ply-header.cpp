@@ -8,7 +8,7 @@
 
 #include "datasets/text.h"
 
-namespace tessera {
+namespace tessera::datasets {
 namespace {
 
 const std::map<std::string_view, PlyType>& types() {
@@ -171,4 +171,4 @@ const PlyElement* PlyHeader::find(std::string_view element) const {
 
 PlyHeader readPlyHeader(const FileText& file) { return HeaderReader(file).read(); }
 
-}  // namespace tessera
+}  // namespace tessera::datasets

@@ -9,7 +9,7 @@
 
 #include "datasets/scanner.h"
 
-namespace tessera {
+namespace tessera::datasets {
 
 enum class PlyType : std::uint8_t { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat, kDouble };
 std::size_t bytesOf(PlyType type);
@@ -46,4 +46,4 @@ PlyHeader readPlyHeader(const FileText& file);
 /// Is this element's list of this name one of corners? Faces have one, and triangle strips.
 bool isCornerList(const PlyElement& element, const PlyProperty& property);
 
-}  // namespace tessera
+}  // namespace tessera::datasets

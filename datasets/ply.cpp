@@ -9,7 +9,7 @@
 #include "datasets/mesh-formats.h"
 #include "datasets/ply-data.h"
 
-namespace tessera {
+namespace tessera::datasets {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "PlyBytes turns big-endian numbers alone");
@@ -204,4 +204,4 @@ Mesh readPly(const FileText& file, const AttributeRequest& attribute) {
   }
 }
 
-}  // namespace tessera
+}  // namespace tessera::datasets

@@ -9,6 +9,8 @@
 
 namespace tessera {
 
+namespace datasets {
+
 Mesh readMeshAsItIs(const std::filesystem::path& path, const AttributeRequest& attribute,
                     const ReadProgress& progress) {
   const std::string name = path.string();
@@ -24,9 +26,11 @@ Mesh readMeshAsItIs(const std::filesystem::path& path, const AttributeRequest& a
   return obj ? readObj(file) : off ? readOff(file) : readPly(file, attribute);
 }
 
+}  // namespace datasets
+
 Mesh readMesh(const std::filesystem::path& path, const AttributeRequest& attribute, const ReadProgress& progress) {
-  Mesh mesh = readMeshAsItIs(path, attribute, progress);
-  completeNormals(mesh);
+  Mesh mesh = datasets::readMeshAsItIs(path, attribute, progress);
+  datasets::completeNormals(mesh);
   return mesh;
 }
 

@@ -34,13 +34,13 @@ glm::vec4 transform(const Matrix& m, const glm::vec3& p) {
 
 class Reader {
  public:
-  explicit Reader(const FileText& file)
-      : in_(file, Scanner::Syntax::kPlain), most_(static_cast<std::int64_t>(file.text.size())) {}
+  explicit Reader(const datasets::FileText& file)
+      : in_(file, datasets::Scanner::Syntax::kPlain), most_(static_cast<std::int64_t>(file.text.size())) {}
 
   Scene read() {
     expect(kFirst);
     if (const std::string_view version = in_.wordInLine("the version"); version != "1")
-      in_.fail(fmt::format("version {}; 1 would be right", shown(version)));
+      in_.fail(fmt::format("version {}; 1 would be right", datasets::shown(version)));
     Scene scene;
     expect("name");
     scene.name = in_.rest();
@@ -79,7 +79,8 @@ class Reader {
  private:
   /// Goes to the next line; what is left of this one is too much.
   void needLine(std::string_view what) {
-    if (in_.at() != 0 && in_.more()) in_.fail(fmt::format("{} where the line's end would be right", shown(in_.word())));
+    if (in_.at() != 0 && in_.more())
+      in_.fail(fmt::format("{} where the line's end would be right", datasets::shown(in_.word())));
     in_.needAhead(what);
   }
   void expect(std::string_view word) {
@@ -97,11 +98,11 @@ class Reader {
     std::uint32_t bits = 0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), bits, 16);
     if (word.size() != 8 || error != std::errc{} || end != word.data() + word.size())
-      in_.fail(fmt::format("{} is not the bits of a float32 in 8 hexadecimal digits", shown(word)));
+      in_.fail(fmt::format("{} is not the bits of a float32 in 8 hexadecimal digits", datasets::shown(word)));
     return std::bit_cast<float>(bits);
   }
 
-  Scanner in_;
+  datasets::Scanner in_;
   const std::int64_t most_;
 };
 
@@ -131,9 +132,9 @@ void writeReplay(const std::filesystem::path& path, const Scene& scene) {
 }
 
 Scene readReplay(const std::filesystem::path& path) {
-  const std::string name = path.string(), bytes = readFile(path);
+  const std::string name = path.string(), bytes = datasets::readFile(path);
   const ReadProgress none;
-  const FileText file{name, plainText(name, bytes), none};
+  const datasets::FileText file{name, datasets::plainText(name, bytes), none};
   return Reader(file).read();
 }
 

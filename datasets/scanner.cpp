@@ -8,7 +8,7 @@
 
 #include "datasets/text.h"
 
-namespace tessera {
+namespace tessera::datasets {
 namespace {
 
 constexpr std::size_t kReportEvery = 1 << 20;  // bytes
@@ -199,4 +199,4 @@ void Scanner::fail(std::string_view wrong) const {
   failUsage(fmt::format("{}:{}: {}", file_.name, line, wrong));
 }
 
-}  // namespace tessera
+}  // namespace tessera::datasets

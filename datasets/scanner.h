@@ -11,7 +11,7 @@
 
 #include "datasets/numbers.h"
 
-namespace tessera {
+namespace tessera::datasets {
 
 /// A file in memory, under the name that messages give it.
 struct FileText {
@@ -101,4 +101,4 @@ class Scanner {
   bool started_ = false;
 };
 
-}  // namespace tessera
+}  // namespace tessera::datasets

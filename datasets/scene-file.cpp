@@ -14,7 +14,7 @@
 #include "datasets/text.h"
 #include "datasets/toml-table.h"
 
-namespace tessera {
+namespace tessera::datasets {
 namespace {
 
 constexpr support::DoubleMatrix kNoCamera{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
@@ -127,4 +127,4 @@ Scene readSceneFile(const std::filesystem::path& path, std::uint32_t width, std:
   return scene;
 }
 
-}  // namespace tessera
+}  // namespace tessera::datasets

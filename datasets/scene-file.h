@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-namespace tessera {
+namespace tessera::datasets {
 
 /// A mesh, and whether it fills clip space as it is (a flat generator).
 struct Source {
@@ -19,4 +19,4 @@ Source loadSource(const std::string& source, const std::filesystem::path& folder
 Scene readSceneFile(const std::filesystem::path& path, std::uint32_t width, std::uint32_t height,
                     const AttributeRequest& attribute, const ReadProgress& progress);
 
-}  // namespace tessera
+}  // namespace tessera::datasets

@@ -12,7 +12,7 @@
 #include "datasets/text.h"
 #include "host/support/text.h"
 
-namespace tessera {
+namespace tessera::datasets {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "binary STL is little-endian and is copied as it is");
@@ -225,4 +225,4 @@ Mesh readStl(InputFile& file, const ReadProgress& progress) {
       file.name(), countOf(all), binarySize(all), all.size()));
 }
 
-}  // namespace tessera
+}  // namespace tessera::datasets

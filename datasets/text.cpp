@@ -17,7 +17,7 @@
 #include "host/support/file-faults.h"
 #include "host/support/output-place.h"
 
-namespace tessera {
+namespace tessera::datasets {
 
 InputFile::InputFile(std::filesystem::path path) : path_(std::move(path)) {
   // Opening a pipe would wait for its writer without an end.
@@ -134,4 +134,4 @@ std::string shown(std::string_view word) {
   return fmt::format("'{}{}'", text, word.size() > kMost ? "..." : "");
 }
 
-}  // namespace tessera
+}  // namespace tessera::datasets

@@ -13,7 +13,7 @@
 #include "datasets/huge-pages.h"
 #include "datasets/numbers.h"
 
-namespace tessera {
+namespace tessera::datasets {
 
 /// A file that is read once, from its beginning to its end.
 class InputFile {
@@ -61,4 +61,4 @@ std::string_view plainText(const std::string& name, std::string_view text);
 /// A word of a file as a message shows it: in quotes, cut where it is long, without control characters.
 std::string shown(std::string_view word);
 
-}  // namespace tessera
+}  // namespace tessera::datasets

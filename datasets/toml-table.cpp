@@ -10,7 +10,7 @@
 #include "datasets/text.h"
 #include "host/support/suggest.h"
 
-namespace tessera {
+namespace tessera::datasets {
 namespace {
 
 [[noreturn]] void failAt(const std::string& file, const toml::source_position& at, std::string_view wrong) {
@@ -116,4 +116,4 @@ const toml::array* TomlTable::list(std::string_view key, std::string_view what) 
   return node->as_array();
 }
 
-}  // namespace tessera
+}  // namespace tessera::datasets

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-namespace tessera {
+namespace tessera::datasets {
 
 /// Throws kUsage with "file:line:column: what is wrong".
 toml::table parseToml(const std::string& file, std::string_view text);
@@ -60,4 +60,4 @@ class TomlTable {
   std::string path_;
 };
 
-}  // namespace tessera
+}  // namespace tessera::datasets

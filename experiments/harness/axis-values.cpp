@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kMaxValues = 1000;
 
-const Axis& axisOf(const TomlTable& table, const toml::key& key) {
+const Axis& axisOf(const datasets::TomlTable& table, const toml::key& key) {
   const auto found = std::ranges::find(allAxes(), key.str(), &Axis::name);
   if (found == allAxes().end())
     table.refuseKey(key, fmt::format("no such axis; {}",
@@ -22,15 +22,15 @@ const Axis& axisOf(const TomlTable& table, const toml::key& key) {
 }
 
 /// A name, or a number as the text of it.
-std::string textOf(const TomlTable& table, std::string_view key, const toml::node& node) {
+std::string textOf(const datasets::TomlTable& table, std::string_view key, const toml::node& node) {
   if (const auto number = node.value_exact<std::int64_t>()) return std::to_string(*number);
   if (const auto text = node.value_exact<std::string>()) return *text;
   table.refuse(key, node, "a value's name in quotes or a whole number would be right");
 }
 
-std::string checkedValue(const TomlTable& table, const Axis& axis, const toml::node& node, std::string text) {
+std::string checkedValue(const datasets::TomlTable& table, const Axis& axis, const toml::node& node, std::string text) {
   if (axis.values.empty()) {
-    const auto number = toInteger(text);
+    const auto number = datasets::toInteger(text);
     if (!number || *number < axis.least || *number > axis.most)
       table.refuse(
           axis.name, node,
@@ -44,18 +44,18 @@ std::string checkedValue(const TomlTable& table, const Axis& axis, const toml::n
   return text;
 }
 
-void addOnce(const TomlTable& table, std::string_view key, const toml::node& node, std::vector<std::string>& values,
-             std::string value) {
+void addOnce(const datasets::TomlTable& table, std::string_view key, const toml::node& node,
+             std::vector<std::string>& values, std::string value) {
   if (std::ranges::find(values, value) != values.end())
     table.refuse(key, node, fmt::format("'{}' is there twice; once would be right", value));
   values.push_back(std::move(value));
 }
 
 /// from, from * times, ... or from, from + step, ... up to and with `to`.
-std::vector<std::int64_t> readRange(const TomlTable& table, std::string_view key, const toml::table& node) {
+std::vector<std::int64_t> readRange(const datasets::TomlTable& table, std::string_view key, const toml::table& node) {
   constexpr std::int64_t kMost = 1'000'000'000;
-  const TomlTable range(table.file(), node, fmt::format("the range of {}", key), {"from", "to", "times", "step"},
-                        table.path() + std::string(key) + ".");
+  const datasets::TomlTable range(table.file(), node, fmt::format("the range of {}", key),
+                                  {"from", "to", "times", "step"}, table.path() + std::string(key) + ".");
   range.need("from", "the first value would be right");
   range.need("to", "the last value would be right");
   const std::int64_t from = *range.whole("from", 0, kMost), to = *range.whole("to", 0, kMost);
@@ -75,12 +75,12 @@ std::vector<std::int64_t> readRange(const TomlTable& table, std::string_view key
 
 }  // namespace
 
-std::string readAxisValue(const TomlTable& table, const TomlTable::Entry& entry) {
+std::string readAxisValue(const datasets::TomlTable& table, const datasets::TomlTable::Entry& entry) {
   const Axis& axis = axisOf(table, entry.key);
   return checkedValue(table, axis, entry.node, textOf(table, axis.name, entry.node));
 }
 
-std::vector<std::string> readAxisValues(const TomlTable& table, const TomlTable::Entry& entry) {
+std::vector<std::string> readAxisValues(const datasets::TomlTable& table, const datasets::TomlTable::Entry& entry) {
   const Axis& axis = axisOf(table, entry.key);
   std::vector<std::string> values;
   if (const toml::table* const range = entry.node.as_table()) {
@@ -96,7 +96,7 @@ std::vector<std::string> readAxisValues(const TomlTable& table, const TomlTable:
   return values;
 }
 
-std::vector<std::string> readChosen(const TomlTable& table, const TomlTable::Entry& entry,
+std::vector<std::string> readChosen(const datasets::TomlTable& table, const datasets::TomlTable::Entry& entry,
                                     const std::vector<SweptAxis>& swept) {
   const std::string key(entry.key.str());
   const auto axis = std::ranges::find(swept, key, &SweptAxis::axis);

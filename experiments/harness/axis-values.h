@@ -10,12 +10,12 @@
 namespace tessera::harness {
 
 /// The value of `entry`, whose key is an axis. Refuses an unknown axis and an unknown value.
-std::string readAxisValue(const TomlTable& table, const TomlTable::Entry& entry);
+std::string readAxisValue(const datasets::TomlTable& table, const datasets::TomlTable::Entry& entry);
 /// The same for a list or a range of them, without a value twice.
-std::vector<std::string> readAxisValues(const TomlTable& table, const TomlTable::Entry& entry);
+std::vector<std::string> readAxisValues(const datasets::TomlTable& table, const datasets::TomlTable::Entry& entry);
 
 /// One value or a list of them, of one of the axes that vary. Refuses another axis, and a value that no cell has.
-std::vector<std::string> readChosen(const TomlTable& table, const TomlTable::Entry& entry,
+std::vector<std::string> readChosen(const datasets::TomlTable& table, const datasets::TomlTable::Entry& entry,
                                     const std::vector<SweptAxis>& swept);
 
 }  // namespace tessera::harness

@@ -193,8 +193,8 @@ std::vector<std::string> commandWords(std::string_view command) {
 
 std::vector<std::size_t> turnOrder(std::vector<std::size_t> cells, std::uint64_t seed, const std::string& job,
                                    unsigned round) {
-  Random jobs(Random(seed).bits() ^ hashOf(job));
-  Random random(jobs.bits() + round);
+  datasets::Random jobs(datasets::Random(seed).bits() ^ hashOf(job));
+  datasets::Random random(jobs.bits() + round);
   for (std::size_t i = cells.size(); i > 1; --i) std::swap(cells[i - 1], cells[random.bits() % i]);
   return cells;
 }

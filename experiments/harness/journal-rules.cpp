@@ -45,7 +45,7 @@ Labels labelsOf(const Json& asked, const std::string& key) {
 std::optional<Size> sizeOf(const std::string& text) {
   const std::size_t x = text.find('x');
   if (x == text.npos) return {};
-  const auto width = toInteger(text.substr(0, x)), height = toInteger(text.substr(x + 1));
+  const auto width = datasets::toInteger(text.substr(0, x)), height = datasets::toInteger(text.substr(x + 1));
   if (!width || !height || *width < 1 || *height < 1 || *width > kMaxExtent || *height > kMaxExtent) return {};
   return Size{static_cast<std::uint32_t>(*width), static_cast<std::uint32_t>(*height)};
 }

@@ -144,7 +144,7 @@ Record readJournal(const fs::path& folder) {
   const fs::path path = journalOf(folder);
   if (!fs::is_regular_file(path))
     failUsage(fmt::format("{}: is no file; a sweep's journal would be right", path.string()));
-  const std::string text = readFile(path);
+  const std::string text = datasets::readFile(path);
   Reading reading;
   Record& record = reading.record;
   std::size_t number = 1;

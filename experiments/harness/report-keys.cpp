@@ -35,7 +35,7 @@ const Names kErrorFields{"pixels",
 const Names kPlottedErrors(kErrorFields.begin() + 1, kErrorFields.end() - 1);
 const Names kStatuses{"ok", "overflow", "unsupported", "timeout", "error"};
 
-std::string oneOf(const TomlTable& table, std::string_view key, const toml::node& node, const Names& names) {
+std::string oneOf(const datasets::TomlTable& table, std::string_view key, const toml::node& node, const Names& names) {
   const auto text = node.value_exact<std::string>();
   if (!text)
     table.refuse(key, node, fmt::format("a name in quotes would be right; {}", support::whatThereIs("", names)));
@@ -44,7 +44,7 @@ std::string oneOf(const TomlTable& table, std::string_view key, const toml::node
   return *text;
 }
 
-void listOf(const TomlTable& table, std::string_view key, const Names& names) {
+void listOf(const datasets::TomlTable& table, std::string_view key, const Names& names) {
   const toml::array* const list = table.list(key, "a list of names");
   if (!list) return;
   Names seen;
@@ -56,7 +56,7 @@ void listOf(const TomlTable& table, std::string_view key, const Names& names) {
   }
 }
 
-void oneOrMore(const TomlTable& table, std::string_view key, const Names& names) {
+void oneOrMore(const datasets::TomlTable& table, std::string_view key, const Names& names) {
   const toml::node* const node = table.find(key);
   if (node && !node->is_array())
     oneOf(table, key, *node, names);
@@ -65,23 +65,23 @@ void oneOrMore(const TomlTable& table, std::string_view key, const Names& names)
 }
 
 /// A number, or one after a comparison and a blank.
-void checkBound(const TomlTable& table, const TomlTable::Entry& entry) {
+void checkBound(const datasets::TomlTable& table, const datasets::TomlTable::Entry& entry) {
   if (entry.node.is_number()) return;
   const std::string text = entry.node.value_exact<std::string>().value_or("");
   const std::size_t blank = std::min(text.find(' '), text.size() - 1);
   const auto comparisons = {"<", ">", "<=", ">="};
   if (text.empty() || std::ranges::find(comparisons, text.substr(0, blank)) == comparisons.end() ||
-      !toDouble(text.substr(blank + 1)))
+      !datasets::toDouble(text.substr(blank + 1)))
     table.refuse(entry.key.str(), entry.node,
                  "a number, or a comparison such as \"> 0\" or \"<= 1e-3\", would be right");
 }
 
-void checkBounds(const TomlTable& expect, std::string_view key, const Names& fields) {
+void checkBounds(const datasets::TomlTable& expect, std::string_view key, const Names& fields) {
   const toml::node* const node = expect.find(key);
   if (!node) return;
   if (!node->is_table()) expect.refuse(key, *node, fmt::format("{}.FIELD = a number or a bound would be right", key));
-  const TomlTable bounds(expect.file(), *node->as_table(), fmt::format("{}{}.", expect.path(), key));
-  for (const TomlTable::Entry& entry : bounds.entries()) {
+  const datasets::TomlTable bounds(expect.file(), *node->as_table(), fmt::format("{}{}.", expect.path(), key));
+  for (const datasets::TomlTable::Entry& entry : bounds.entries()) {
     if (std::ranges::find(fields, entry.key.str()) == fields.end())
       bounds.refuseKey(entry.key, fmt::format("no such field; {}", support::whatThereIs(entry.key.str(), fields)));
     checkBound(bounds, entry);
@@ -90,7 +90,7 @@ void checkBounds(const TomlTable& expect, std::string_view key, const Names& fie
 
 }  // namespace
 
-void checkPlot(const TomlTable& plot, const Sweep& sweep) {
+void checkPlot(const datasets::TomlTable& plot, const Sweep& sweep) {
   Names curves;
   for (const SweptAxis& axis : sweptAxes(sweep)) curves.push_back(axis.axis);
   for (const char* const other : {"scene", "size", "device", "threads"}) curves.emplace_back(other);
@@ -111,12 +111,12 @@ void checkPlot(const TomlTable& plot, const Sweep& sweep) {
   plot.line("figure");
 }
 
-void checkExpectation(const TomlTable& expect, const Sweep& sweep) {
+void checkExpectation(const datasets::TomlTable& expect, const Sweep& sweep) {
   if (const toml::node* const node = expect.find("where")) {
     if (!node->is_table()) expect.refuse("where", *node, "{axis = value} would be right");
-    const TomlTable where(expect.file(), *node->as_table(), expect.path() + "where.");
+    const datasets::TomlTable where(expect.file(), *node->as_table(), expect.path() + "where.");
     const auto swept = sweptAxes(sweep);
-    for (const TomlTable::Entry& entry : where.entries()) readChosen(where, entry, swept);
+    for (const datasets::TomlTable::Entry& entry : where.entries()) readChosen(where, entry, swept);
   }
   Names scenes, counters;
   for (const SweepScene& scene : sweep.scenes) scenes.push_back(scene.name);

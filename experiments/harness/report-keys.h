@@ -7,8 +7,8 @@
 namespace tessera::harness {
 
 /// [plot]: what the report draws.
-void checkPlot(const TomlTable& plot, const Sweep& sweep);
+void checkPlot(const datasets::TomlTable& plot, const Sweep& sweep);
 /// One [[expect]]: what rows must have, whatever their times.
-void checkExpectation(const TomlTable& expect, const Sweep& sweep);
+void checkExpectation(const datasets::TomlTable& expect, const Sweep& sweep);
 
 }  // namespace tessera::harness

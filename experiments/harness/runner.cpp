@@ -299,7 +299,7 @@ class Runner {
             name, which, part(before, which), part(row, which)));
     for (const auto& [stage, file] : cells_[number].kernels)
       if (const Json files = before.value("kernel_files", Json::object());
-          files.contains(stage) && files.at(stage).at("sha256") != support::sha256(readFile(file)))
+          files.contains(stage) && files.at(stage).at("sha256") != support::sha256(datasets::readFile(file)))
         failUsage(
             fmt::format("{}: {} is not what it was when this sweep began; as it was it resumes it, another folder "
                         "begins anew",

@@ -32,7 +32,7 @@ constexpr std::size_t kMaxCells = 100'000;
 constexpr std::int64_t kMaxThreads = 4096;
 
 /// The table at `key`, of which the file chooses the keys; empty where there is none.
-TomlTable section(const TomlTable& top, std::string_view key) {
+datasets::TomlTable section(const datasets::TomlTable& top, std::string_view key) {
   static const toml::table kNone;
   const toml::node* const node = top.find(key);
   if (node && !node->is_table()) top.refuse(key, *node, fmt::format("[{}] would be right", key));
@@ -40,7 +40,7 @@ TomlTable section(const TomlTable& top, std::string_view key) {
 }
 
 /// The tables of [[key]].
-std::vector<const toml::table*> sections(const TomlTable& top, std::string_view key) {
+std::vector<const toml::table*> sections(const datasets::TomlTable& top, std::string_view key) {
   const toml::node* const node = top.find(key);
   if (!node) return {};
   if (!node->is_array_of_tables()) top.refuse(key, *node, fmt::format("[[{}]] would be right", key));
@@ -50,12 +50,14 @@ std::vector<const toml::table*> sections(const TomlTable& top, std::string_view 
 }
 
 template <typename T>
-void addOnce(const TomlTable& table, std::string_view key, const toml::node& node, std::vector<T>& values, T value) {
+void addOnce(const datasets::TomlTable& table, std::string_view key, const toml::node& node, std::vector<T>& values,
+             T value) {
   if (std::ranges::find(values, value) != values.end()) table.refuse(key, node, "is there twice; once would be right");
   values.push_back(std::move(value));
 }
 
-std::string textOf(const TomlTable& table, std::string_view key, const toml::node& node, std::string_view what) {
+std::string textOf(const datasets::TomlTable& table, std::string_view key, const toml::node& node,
+                   std::string_view what) {
   const auto text = node.value_exact<std::string>();
   if (!text) table.refuse(key, node, fmt::format("{} would be right", what));
   return *text;
@@ -63,7 +65,7 @@ std::string textOf(const TomlTable& table, std::string_view key, const toml::nod
 
 /// What `action` throws, said at the node.
 template <typename Action>
-auto at(const TomlTable& table, std::string_view key, const toml::node& node, const Action& action) {
+auto at(const datasets::TomlTable& table, std::string_view key, const toml::node& node, const Action& action) {
   try {
     return action();
   } catch (const Error& error) {
@@ -75,15 +77,18 @@ auto at(const TomlTable& table, std::string_view key, const toml::node& node, co
 // ---- scenes
 
 /// The input as loadInput takes it. Whether the file can be read shows when it is loaded.
-std::string readInput(const TomlTable& table, std::string_view key, const toml::node& node, const fs::path& folder) {
+std::string readInput(const datasets::TomlTable& table, std::string_view key, const toml::node& node,
+                      const fs::path& folder) {
   const std::string text = textOf(table, key, node, "an input as tessera render takes it, in quotes,");
   constexpr std::string_view kGenerate = "generate:";
   if (text.starts_with(kGenerate)) {
-    at(table, key, node, [&] { return parseGenerator(std::string_view(text).substr(kGenerate.size())).generator; });
+    at(table, key, node,
+       [&] { return datasets::parseGenerator(std::string_view(text).substr(kGenerate.size())).generator; });
     return text;
   }
-  if (text.starts_with(kInstalledMesh)) {
-    at(table, key, node, [&] { return installedMesh(std::string_view(text).substr(kInstalledMesh.size())); });
+  if (text.starts_with(datasets::kInstalledMesh)) {
+    at(table, key, node,
+       [&] { return datasets::installedMesh(std::string_view(text).substr(datasets::kInstalledMesh.size())); });
     return text;
   }
   const fs::path path = (folder / text).lexically_normal();
@@ -97,7 +102,7 @@ std::string readInput(const TomlTable& table, std::string_view key, const toml::
   return path.string();
 }
 
-AttributeRequest readAttribute(const TomlTable& scene, bool generated) {
+AttributeRequest readAttribute(const datasets::TomlTable& scene, bool generated) {
   AttributeRequest request;
   if (const auto name = scene.line("attribute")) request.name = *name;
   if (generated && !request.name.empty() && !request.isCoordinate())
@@ -121,9 +126,9 @@ bool isSceneName(std::string_view name) {
   return !name.empty() && name.size() <= 100 && name[0] != '.' && name[0] != '-' && std::ranges::all_of(name, good);
 }
 
-std::vector<SweepScene> readScenes(const TomlTable& top, const fs::path& folder) {
+std::vector<SweepScene> readScenes(const datasets::TomlTable& top, const fs::path& folder) {
   top.need("scenes", "[scenes] with a line name = \"INPUT\" each would be right");
-  const TomlTable table = section(top, "scenes");
+  const datasets::TomlTable table = section(top, "scenes");
   std::vector<SweepScene> scenes;
   for (const auto& [key, node] : table.entries()) {
     const std::string name(key.str());
@@ -133,8 +138,8 @@ std::vector<SweepScene> readScenes(const TomlTable& top, const fs::path& folder)
                       "and begins with a letter, a digit or an underscore");
     SweepScene scene{.name = name, .input = {}, .text = {}, .attribute = {}, .x = {}};
     if (const toml::table* const fields = node.as_table()) {
-      const TomlTable entry(top.file(), *fields, "a scene", {"source", "x", "attribute", "range"},
-                            "scenes." + name + ".");
+      const datasets::TomlTable entry(top.file(), *fields, "a scene", {"source", "x", "attribute", "range"},
+                                      "scenes." + name + ".");
       const toml::node& source = entry.need("source", "an input as tessera render takes it would be right");
       scene.input = readInput(entry, "source", source, folder);
       scene.text = *source.value<std::string>();
@@ -152,7 +157,7 @@ std::vector<SweepScene> readScenes(const TomlTable& top, const fs::path& folder)
 
 // ---- lists of the top level
 
-std::vector<Size> readSizes(const TomlTable& table) {
+std::vector<Size> readSizes(const datasets::TomlTable& table) {
   constexpr std::string_view kWhat = "a list of edges, or of [width, height], in pixels,";
   const toml::array* const list = table.list("sizes", kWhat);
   std::vector<Size> sizes;
@@ -177,7 +182,7 @@ bool isDeviceName(std::string_view name) {
   return devices::findKind(name) != nullptr && name.find_first_of("/\r\n") == name.npos;
 }
 
-std::vector<std::string> readDevices(const TomlTable& top) {
+std::vector<std::string> readDevices(const datasets::TomlTable& top) {
   const toml::array* const list =
       top.list("devices", fmt::format("a list such as [\"{}\"]", fmt::join(devices::kindNames(), "\", \"")));
   if (!list) return {devices::defaultDevice()};
@@ -191,7 +196,7 @@ std::vector<std::string> readDevices(const TomlTable& top) {
   return devices;
 }
 
-std::vector<unsigned> readThreads(const TomlTable& top) {
+std::vector<unsigned> readThreads(const datasets::TomlTable& top) {
   const toml::array* const list = top.list("threads", "a list of numbers of threads");
   if (!list) return {0};
   std::vector<unsigned> threads;
@@ -206,19 +211,20 @@ std::vector<unsigned> readThreads(const TomlTable& top) {
 
 // ---- what varies
 
-Variant readVariant(const TomlTable& table) {
+Variant readVariant(const datasets::TomlTable& table) {
   Variant variant;
-  for (const TomlTable::Entry& entry : table.entries()) variant.set(entry.key.str(), readAxisValue(table, entry));
+  for (const datasets::TomlTable::Entry& entry : table.entries())
+    variant.set(entry.key.str(), readAxisValue(table, entry));
   return variant;
 }
 
-void refuseSet(const TomlTable& table, const toml::key& key, const Variant& set) {
+void refuseSet(const datasets::TomlTable& table, const toml::key& key, const Variant& set) {
   if (set.has(key.str())) table.refuseKey(key, "is in [set], too; one of the two would be right");
 }
 
-std::vector<SweptAxis> readAxes(const TomlTable& table, const Variant& set) {
+std::vector<SweptAxis> readAxes(const datasets::TomlTable& table, const Variant& set) {
   std::vector<SweptAxis> swept;
-  for (const TomlTable::Entry& entry : table.entries()) {
+  for (const datasets::TomlTable::Entry& entry : table.entries()) {
     swept.push_back({std::string(entry.key.str()), readAxisValues(table, entry)});
     refuseSet(table, entry.key, set);
   }
@@ -233,7 +239,7 @@ bool liesIn(const fs::path& folder, const fs::path& file) {
 }
 
 /// A kernel is native code. What lies beside the sweep came with it; what lies elsewhere was put there by another.
-std::string refusalOf(const TomlTable& table, const std::string& stage, const toml::node& element,
+std::string refusalOf(const datasets::TomlTable& table, const std::string& stage, const toml::node& element,
                       const fs::path& file) try {
   table.refuse(
       stage, element,
@@ -244,7 +250,7 @@ std::string refusalOf(const TomlTable& table, const std::string& stage, const to
   return error.what();
 }
 
-std::vector<SweptKernel> readKernels(const TomlTable& table, const fs::path& folder, std::string& foreign) {
+std::vector<SweptKernel> readKernels(const datasets::TomlTable& table, const fs::path& folder, std::string& foreign) {
   std::vector<SweptKernel> kernels;
   for (const auto& [key, node] : table.entries()) {
     if (std::ranges::find(plan::stages(), key.str(), &plan::Stage::name) == plan::stages().end()) {
@@ -269,25 +275,25 @@ std::vector<SweptKernel> readKernels(const TomlTable& table, const fs::path& fol
   return kernels;
 }
 
-std::vector<Variant> readAlso(const TomlTable& top, const Variant& set) {
+std::vector<Variant> readAlso(const datasets::TomlTable& top, const Variant& set) {
   std::vector<Variant> also;
   for (const toml::table* const one : sections(top, "also")) {
-    const TomlTable table(top.file(), *one, "also.");
-    for (const TomlTable::Entry& entry : table.entries()) refuseSet(table, entry.key, set);
+    const datasets::TomlTable table(top.file(), *one, "also.");
+    for (const datasets::TomlTable::Entry& entry : table.entries()) refuseSet(table, entry.key, set);
     also.push_back(readVariant(table));
   }
   return also;
 }
 
-std::vector<LeaveOut> readLeaveOut(const TomlTable& top, const Sweep& sweep) {
+std::vector<LeaveOut> readLeaveOut(const datasets::TomlTable& top, const Sweep& sweep) {
   Sweep product = sweep;  // [[also]] is outside of it
   product.also.clear();
   const std::vector<SweptAxis> swept = sweptAxes(product);
   std::vector<LeaveOut> all;
   for (const toml::table* const one : sections(top, "leave-out")) {
-    const TomlTable table(top.file(), *one, "leave-out.");
+    const datasets::TomlTable table(top.file(), *one, "leave-out.");
     LeaveOut leaveOut;
-    for (const TomlTable::Entry& entry : table.entries())
+    for (const datasets::TomlTable::Entry& entry : table.entries())
       leaveOut.emplace_back(entry.key.str(), readChosen(table, entry, swept));
     if (leaveOut.empty()) top.fail(one->source(), "leave-out: leaves out everything; an axis = value would be right");
     all.push_back(std::move(leaveOut));
@@ -295,12 +301,12 @@ std::vector<LeaveOut> readLeaveOut(const TomlTable& top, const Sweep& sweep) {
   return all;
 }
 
-Variant readReference(const TomlTable& top, const Sweep& sweep) {
-  const TomlTable table = section(top, "reference");
+Variant readReference(const datasets::TomlTable& top, const Sweep& sweep) {
+  const datasets::TomlTable table = section(top, "reference");
   std::vector<SweptAxis> swept = sweptAxes(sweep);
   std::erase_if(swept, [](const SweptAxis& axis) { return axis.axis.starts_with("kernel:"); });
   Variant reference;
-  for (const TomlTable::Entry& entry : table.entries()) {
+  for (const datasets::TomlTable::Entry& entry : table.entries()) {
     const auto values = readChosen(table, entry, swept);
     if (values.size() != 1) table.refuse(entry.key.str(), entry.node, "one value would be right");
     reference.set(entry.key.str(), values.front());
@@ -308,13 +314,13 @@ Variant readReference(const TomlTable& top, const Sweep& sweep) {
   return reference;
 }
 
-Variant readTruth(const TomlTable& top) {
-  const TomlTable table = section(top, "truth");
+Variant readTruth(const datasets::TomlTable& top) {
+  const datasets::TomlTable table = section(top, "truth");
   std::vector<std::string> names;
   for (const Axis& axis : allAxes())
     if (axis.kind() == AxisKind::kImage && axis.name != "shade")
       names.push_back(axis.name);  // the oracle has no colours
-  for (const TomlTable::Entry& entry : table.entries())
+  for (const datasets::TomlTable::Entry& entry : table.entries())
     if (std::ranges::find(names, entry.key.str()) == names.end())
       table.refuseKey(entry.key,
                       fmt::format("does not change what is right; {}", support::whatThereIs(entry.key.str(), names)));
@@ -330,7 +336,7 @@ bool hasAll(const Labels& labels, const Variant& values) {
   });
 }
 
-void checkCells(const TomlTable& top, const Sweep& sweep) {
+void checkCells(const datasets::TomlTable& top, const Sweep& sweep) {
   const toml::source_region& place = (top.has("axes") ? *top.find("axes") : *top.find("scenes")).source();
   double product = 1;
   for (const SweptAxis& axis : sweep.axes) product *= static_cast<double>(axis.values.size());
@@ -371,13 +377,13 @@ void change(Sweep& sweep, const Changes& changes) {
 
 // ---- [quick]
 
-void readQuick(const TomlTable& top, Sweep& sweep, bool quick) {
+void readQuick(const datasets::TomlTable& top, Sweep& sweep, bool quick) {
   if (quick && !top.has("quick"))
     failUsage(fmt::format("{}: quick: there is no [quick] with the sizes and rounds of a quick run", top.file()));
   if (!top.has("quick")) return;
   section(top, "quick");
-  const TomlTable table(top.file(), *top.find("quick")->as_table(), "[quick]", {"sizes", "rounds", "repeats", "scenes"},
-                        "quick.");
+  const datasets::TomlTable table(top.file(), *top.find("quick")->as_table(), "[quick]",
+                                  {"sizes", "rounds", "repeats", "scenes"}, "quick.");
   Sweep changed = sweep;
   changed.quick = true;
   if (table.has("sizes")) changed.sizes = readSizes(table);
@@ -404,15 +410,15 @@ void readQuick(const TomlTable& top, Sweep& sweep, bool quick) {
 Sweep readSweep(const fs::path& path, bool quick, const Changes& changes) {
   Sweep sweep;
   sweep.path = fs::absolute(path).lexically_normal();
-  sweep.text = readFile(path);
+  sweep.text = datasets::readFile(path);
   sweep.sha256 = support::sha256(sweep.text);
   const fs::path folder = path.parent_path();  // as it was given: messages, and so rows, name no folder of this machine
   const std::string file = path.string();
-  const toml::table root = parseToml(file, sweep.text);
-  const TomlTable top(file, root, "a sweep",
-                      {"title",     "question", "sizes",      "scenes", "axes",    "set",     "kernels",
-                       "leave-out", "also",     "reference",  "truth",  "devices", "threads", "rounds",
-                       "warm-up",   "repeats",  "time-limit", "seed",   "plot",    "quick",   "expect"});
+  const toml::table root = datasets::parseToml(file, sweep.text);
+  const datasets::TomlTable top(file, root, "a sweep",
+                                {"title",     "question", "sizes",      "scenes", "axes",    "set",     "kernels",
+                                 "leave-out", "also",     "reference",  "truth",  "devices", "threads", "rounds",
+                                 "warm-up",   "repeats",  "time-limit", "seed",   "plot",    "quick",   "expect"});
   top.need("title", "a line that names the sweep would be right");
   top.need("question", "the question that it answers would be right");
   sweep.title = *top.line("title");

@@ -249,7 +249,7 @@ std::vector<std::string> partsOf(const std::string& typed, const std::string& op
 }
 
 std::vector<fs::path> inputsOf(const Options& options) {
-  std::vector<fs::path> files = inputFiles(options.input);
+  std::vector<fs::path> files = datasets::inputFiles(options.input);
   for (const std::string& text : options.kernels) files.emplace_back(text.substr(text.find('=') + 1));
   return files;
 }

@@ -50,7 +50,7 @@ Candidates generated(const std::string& word) {
   constexpr std::string_view kGenerate = "generate:";
   const std::size_t question = word.find('?');
   Candidates all;
-  for (const Generator& generator : generators()) {
+  for (const datasets::Generator& generator : datasets::generators()) {
     const std::string name = std::string(kGenerate) + generator.name;
     if (question == word.npos) {
       all.push_back({name, generator.makes});
@@ -58,7 +58,7 @@ Candidates generated(const std::string& word) {
     }
     if (name != word.substr(0, question)) continue;
     const std::string before = upTo(word, "?&"), setting = word.substr(before.size());
-    for (const GeneratorParameter& p : generator.parameters) {
+    for (const datasets::GeneratorParameter& p : generator.parameters) {
       if (setting.find('=') == setting.npos) all.push_back({before + p.name + "=", ""});
       if (setting.starts_with(p.name + "="))
         for (const std::string& choice : p.choices) all.push_back({before + p.name + "=" + choice, ""});
@@ -70,9 +70,10 @@ Candidates generated(const std::string& word) {
 Candidates inputs(const std::string& word) {
   if (word.starts_with("generate:")) return generated(word);
   Candidates all;
-  if (!word.starts_with(kInstalledMesh))
+  if (!word.starts_with(datasets::kInstalledMesh))
     return {{"mesh:", "an installed mesh"}, {"generate:", "a generated mesh"}, {":files", ""}};
-  for (const std::string& name : installedMeshes()) all.push_back({std::string(kInstalledMesh) + name, ""});
+  for (const std::string& name : datasets::installedMeshes())
+    all.push_back({std::string(datasets::kInstalledMesh) + name, ""});
   return all;
 }
 

@@ -12,8 +12,8 @@ Command addMeshes(CLI::App& app) {
       app.add_subcommand("meshes", "list the installed meshes and the generators that INPUT may name");
   command->footer("Example:\n  tessera meshes");
   return {command, [] {
-            const auto installed = installedMeshes();
-            for (const std::string& name : installed) support::say(stdout, "{}{}\n", kInstalledMesh, name);
+            const auto installed = datasets::installedMeshes();
+            for (const std::string& name : installed) support::say(stdout, "{}{}\n", datasets::kInstalledMesh, name);
             for (const GeneratorDoc& generator : generatorDocs()) support::say(stdout, "generate:{}\n", generator.name);
             if (installed.empty())
               support::say(stderr, "no mesh is installed: Debian's libcgal-demo, with its doc folder, has some\n");

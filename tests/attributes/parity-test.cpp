@@ -22,7 +22,7 @@ namespace {
 
 /// A value a vertex: over many orders of magnitude, some equal, in one scene of four some that are not finite.
 void addValues(Scene& scene, std::uint64_t seed) {
-  Random random(seed);
+  datasets::Random random(seed);
   const float strange[] = {std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN(),
                            std::numeric_limits<float>::max(), std::numeric_limits<float>::denorm_min()};
   nameAttribute(scene, "random");

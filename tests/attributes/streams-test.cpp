@@ -28,7 +28,7 @@ using namespace tessera;
 namespace {
 
 void addStreams(Scene& scene, std::uint64_t seed) {
-  Random random(seed);
+  datasets::Random random(seed);
   for (const unsigned components : {3u, 1u, 4u, 2u}) {
     Stream& stream = scene.makeStream("of " + std::to_string(components), components, true);
     for (std::size_t i = 0; i < components * scene.vertexCount(); ++i)

@@ -99,8 +99,8 @@ std::string triple(const glm::dvec3& v) { return fmt::format("[{}, {}, {}]", v.x
 }  // namespace
 
 TEST_CASE("The origin: 0 near 0 and else the box's centre to a multiple of the power of two above its diagonal") {
-  const auto origin = [](const glm::dvec3& low, const glm::dvec3& high) { return originOf({low, high}); };
-  CHECK(originOf({}) == glm::dvec3(0));
+  const auto origin = [](const glm::dvec3& low, const glm::dvec3& high) { return datasets::originOf({low, high}); };
+  CHECK(datasets::originOf({}) == glm::dvec3(0));
   CHECK(origin({-1, -1, -1}, {1, 1, 1}) == glm::dvec3(0));
   // A box of diagonal 3 whose centre is just within twice that, and just beyond; the power of two is 4.
   CHECK(origin({6 - 1, -1, -0.5}, {6 + 1, 1, 0.5}) == glm::dvec3(0));

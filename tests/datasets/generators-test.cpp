@@ -56,8 +56,8 @@ TEST_CASE("Generators make what they say, the same bits on every machine") {
 }
 
 TEST_CASE("Every generator has a golden hash, a line of help and a line in the README") {
-  CHECK(generators().size() == 8);
-  REQUIRE(generatorDocs().size() == generators().size());
+  CHECK(datasets::generators().size() == 8);
+  REQUIRE(generatorDocs().size() == datasets::generators().size());
   std::string readme;
   {
     std::FILE* const file = std::fopen(TESSERA_SOURCE_DIR "/datasets/README.md", "rb");
@@ -92,7 +92,7 @@ TEST_CASE("Solids are closed and face outwards") {
 }
 
 TEST_CASE("Flat generators lie in the clip volume and face the eye") {
-  for (const Generator& generator : flatGenerators()) {
+  for (const datasets::Generator& generator : datasets::flatGenerators()) {
     INFO(generator.name);
     const bool many = generator.name == "hot" || generator.name == "soup";
     const Mesh mesh = generateMesh(generator.name + (many ? "?count=2000" : ""));
@@ -147,7 +147,7 @@ TEST_CASE("Seeds are followed") {
 }
 
 TEST_CASE("The random numbers are those of SplitMix64") {
-  Random random(1234567);  // the reference implementation's first outputs for this seed
+  datasets::Random random(1234567);  // the reference implementation's first outputs for this seed
   CHECK(random.bits() == 6457827717110365317u);
   CHECK(random.bits() == 3203168211198807973u);
   CHECK(random.bits() == 9817491932198370423u);
@@ -156,12 +156,12 @@ TEST_CASE("The random numbers are those of SplitMix64") {
 TEST_CASE("Points of the circle") {
   for (int i = -40; i <= 80; ++i) {
     const double part = i / 37.0;
-    const glm::dvec2 p = circlePoint(part);
+    const glm::dvec2 p = datasets::circlePoint(part);
     CHECK(std::abs(p.x - std::cos(6.283185307179586 * part)) < 4e-15);
     CHECK(std::abs(p.y - std::sin(6.283185307179586 * part)) < 4e-15);
   }
-  CHECK(circlePoint(0.25) == glm::dvec2(0, 1));
-  CHECK(circlePoint(0.5) == glm::dvec2(-1, 0));
+  CHECK(datasets::circlePoint(0.25) == glm::dvec2(0, 1));
+  CHECK(datasets::circlePoint(0.5) == glm::dvec2(-1, 0));
 }
 
 TEST_CASE("Bad parameters of generators are refused") {

@@ -42,11 +42,11 @@ TEST_CASE("An installed mesh is an input by name") {
   const std::string path = files.write("a.toml", "[[mesh]]\nsource = \"mesh:ChineseDragon-10kv\"\n");
   CHECK(loadInput(path, 32, 16).positions == scene.positions);
   // Unpacked again where it is older than the archive: a new package may have another mesh.
-  const auto mesh = installedMesh("ChineseDragon-10kv");
+  const auto mesh = datasets::installedMesh("ChineseDragon-10kv");
   const auto older =
       std::filesystem::last_write_time("/usr/share/doc/libcgal-demo/data.tar.gz") - std::chrono::hours(1);
   std::filesystem::last_write_time(mesh, older);
-  CHECK(installedMesh("ChineseDragon-10kv") == mesh);
+  CHECK(datasets::installedMesh("ChineseDragon-10kv") == mesh);
   CHECK(std::filesystem::last_write_time(mesh) > older);
   CHECK(usageError([] { loadInput("mesh:none"); }).starts_with("mesh:none: no such mesh; "));
   CHECK(usageError([] { loadInput("mesh:../../x"); }).starts_with("mesh:../../x: not a name"));
@@ -57,15 +57,16 @@ TEST_CASE("What is no file in the place of an unpacked mesh is replaced") {
   const Files files;
   const std::string before = std::getenv("TESSERA_CACHE");  // tests/main.cpp sets it
   setenv("TESSERA_CACHE", files.path("cache").c_str(), 1);
-  const std::size_t all = installedMeshes().size();
-  const std::filesystem::path mesh = installedMesh("ChineseDragon-10kv"), names = mesh.parent_path() / "names";
+  const std::size_t all = datasets::installedMeshes().size();
+  const std::filesystem::path mesh = datasets::installedMesh("ChineseDragon-10kv"),
+                              names = mesh.parent_path() / "names";
   for (const bool pipe : {false, true})
     for (const auto& path : {mesh, names}) {
       INFO(path << (pipe ? ", a pipe" : ", a folder"));
       std::filesystem::remove_all(path);
       // A pipe without a writer would be waited for.
       REQUIRE((pipe ? mkfifo(path.c_str(), 0600) : mkdir(path.c_str(), 0700)) == 0);
-      CHECK(installedMeshes().size() == all);
+      CHECK(datasets::installedMeshes().size() == all);
       CHECK(loadInput("mesh:ChineseDragon-10kv", 32, 16).triangles.size() == 19994);
       CHECK(std::filesystem::is_regular_file(path));
     }

@@ -149,9 +149,9 @@ TEST_CASE("STL: a binary file that becomes shorter while it is read") {
   const Files files;
   const Mesh mesh = readMesh(files.write("a.stl", kText));
   const std::string path = files.write("b.stl", binary(mesh, 3));
-  InputFile file(path);
+  datasets::InputFile file(path);
   std::filesystem::resize_file(path, 200);
-  CHECK(usageError([&] { readStl(file, {}); }) == path + ": became shorter while it was read");
+  CHECK(usageError([&] { datasets::readStl(file, {}); }) == path + ": became shorter while it was read");
 }
 
 TEST_CASE("STL: broken files are refused where they are broken") {

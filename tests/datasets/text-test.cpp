@@ -146,20 +146,20 @@ TEST_CASE("Progress goes from the beginning of a file to its end") {
 }
 
 TEST_CASE("Numbers are the nearest doubles and floats, or no numbers") {
-  CHECK(toNumber("0.1") == 0.1);
-  CHECK(toNumber("-1.5E+3") == -1500);
-  CHECK(toNumber("+7") == 7);
-  CHECK(toNumber("1e-400") == 0);
-  CHECK(toNumber("1e400") == HUGE_VAL);
-  CHECK(toNumber("-1e400") == -HUGE_VAL);
-  CHECK(!toDouble("1e400"));
-  CHECK(!toReal("1e400"));
-  CHECK(!toDouble("inf"));
+  CHECK(datasets::toNumber("0.1") == 0.1);
+  CHECK(datasets::toNumber("-1.5E+3") == -1500);
+  CHECK(datasets::toNumber("+7") == 7);
+  CHECK(datasets::toNumber("1e-400") == 0);
+  CHECK(datasets::toNumber("1e400") == HUGE_VAL);
+  CHECK(datasets::toNumber("-1e400") == -HUGE_VAL);
+  CHECK(!datasets::toDouble("1e400"));
+  CHECK(!datasets::toReal("1e400"));
+  CHECK(!datasets::toDouble("inf"));
   for (const char* const word : {"", "+", "-", ".", "e5", "1e", "1e+", "0x10", "1,5", "1.5.2", "+-1", "--1", "1f", "١"})
-    CHECK(!toNumber(word));
+    CHECK(!datasets::toNumber(word));
   // Halfway between two floats but for the last digit: rounding by way of a double would go to the even one.
-  CHECK(toReal("1.00000005960464477540") == std::nextafter(1.0f, 2.0f));
-  CHECK(toReal("1.00000005960464477539") == 1.0f);
-  CHECK(toReal("1e-45") == 1e-45f);
-  CHECK(!toReal("3.5e38"));
+  CHECK(datasets::toReal("1.00000005960464477540") == std::nextafter(1.0f, 2.0f));
+  CHECK(datasets::toReal("1.00000005960464477539") == 1.0f);
+  CHECK(datasets::toReal("1e-45") == 1e-45f);
+  CHECK(!datasets::toReal("3.5e38"));
 }

@@ -18,7 +18,7 @@ constexpr std::size_t kTriangles = 200;
 /// Triangles whose coordinates are of wildly different magnitudes; `exponent` draws one.
 template <typename Exponent>
 Scene scaledScene(std::uint64_t seed, Exponent exponent) {
-  Random random(seed);
+  datasets::Random random(seed);
   Scene scene;
   scene.width = 1u << random.bits() % 8;
   scene.height = 97;
@@ -56,13 +56,13 @@ void checkScaled(Machine& machine, Exponent exponent) {
 }  // namespace
 
 CHECKED_PLACE_TEST_CASE("All of float32's magnitudes at once", "[rounding]") {
-  checkScaled(machine, [](Random& r) { return r.between(-149, 128); });
+  checkScaled(machine, [](datasets::Random& r) { return r.between(-149, 128); });
 }
 
 CHECKED_PLACE_TEST_CASE("Coordinates about as large as each other, anywhere in float32", "[rounding]") {
   double middle = 0;
   std::uint64_t drawn = 0;
-  checkScaled(machine, [&](Random& r) {
+  checkScaled(machine, [&](datasets::Random& r) {
     if (drawn++ % 12 == 0) middle = r.between(-145, 126);
     return middle + r.between(-1.5, 1.5);
   });
@@ -70,7 +70,7 @@ CHECKED_PLACE_TEST_CASE("Coordinates about as large as each other, anywhere in f
 
 CHECKED_PLACE_TEST_CASE("Denormal coordinates", "[rounding]") {
   // 1/w is finite from 2^-128 on.
-  checkScaled(machine, [](Random& r) { return r.between(-136, -126); });
+  checkScaled(machine, [](datasets::Random& r) { return r.between(-136, -126); });
 }
 
 CHECKED_PLACE_TEST_CASE("Polygons that rounding bends keep all their corners", "[rounding]") {
@@ -80,7 +80,7 @@ CHECKED_PLACE_TEST_CASE("Polygons that rounding bends keep all their corners", "
   Scene scene;
   scene.width = scene.height = 64;
   const float guard = 32767.0f / 32;
-  Random random(11);
+  datasets::Random random(11);
   const auto side = [&](double size) { return random.unit() < 0.5 ? -size : size; };
   std::size_t searched = 0;
   for (; scene.triangles.size() < 40 && searched < 1000000; ++searched) {

@@ -79,7 +79,7 @@ void fuzz(const Target& target, const fs::path& folder) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(minutes * 60 / 10);  // of ten targets
   for (std::uint64_t seed = first; minutes == 0 ? seed < first + kInputs : std::chrono::steady_clock::now() < end;
        ++seed) {
-    Random random(seed);
+    datasets::Random random(seed);
     const auto pick = [&]() -> const std::string& { return target.seeds[random.bits() % target.seeds.size()]; };
     const std::string& text = pick();
     write(mutate(text, pick(), random));

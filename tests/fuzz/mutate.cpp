@@ -11,7 +11,8 @@ constexpr std::size_t kMost = 1 << 16;  // bytes: a file need not grow to show a
 
 class Mutation {
  public:
-  Mutation(std::string& text, std::string_view other, Random& random) : text_(text), other_(other), random_(random) {}
+  Mutation(std::string& text, std::string_view other, datasets::Random& random)
+      : text_(text), other_(other), random_(random) {}
 
   void apply() {
     switch (below(14)) {
@@ -146,12 +147,12 @@ class Mutation {
 
   std::string& text_;
   std::string_view other_;
-  Random& random_;
+  datasets::Random& random_;
 };
 
 }  // namespace
 
-std::string mutate(std::string text, std::string_view other, Random& random) {
+std::string mutate(std::string text, std::string_view other, datasets::Random& random) {
   Mutation mutation(text, other, random);
   for (auto n = 1 + random.bits() % 6; n > 0; --n) mutation.apply();
   return text;

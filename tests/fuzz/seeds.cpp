@@ -102,12 +102,12 @@ std::string image(const fs::path& folder, bool more) {
     valuesOf(frame).assign(35, 1.5f);
   }
   writeImage(folder / "seed.exr", frame);
-  return readFile(folder / "seed.exr");
+  return datasets::readFile(folder / "seed.exr");
 }
 
 std::string replay(const fs::path& folder) {
   writeReplay(folder / "seed.replay", loadInput("generate:icosphere?level=0", 16, 16, {"y", {}}));
-  return readFile(folder / "seed.replay");
+  return datasets::readFile(folder / "seed.replay");
 }
 
 /// What a scene has to be, whatever it was read from.
@@ -143,9 +143,9 @@ std::vector<Target> targets(const fs::path& folder) {
           {"image", ".exr", {image(folder, false), image(folder, true)}, [](const fs::path& path) { readImage(path); }},
           {"sweep",
            ".toml",
-           {readFile(TESSERA_SOURCE_DIR "/experiments/tile-size/sweep.toml"),
-            readFile(TESSERA_SOURCE_DIR "/experiments/bin-capacity/sweep.toml"),
-            readFile(TESSERA_SOURCE_DIR "/experiments/culling/sweep.toml")},
+           {datasets::readFile(TESSERA_SOURCE_DIR "/experiments/tile-size/sweep.toml"),
+            datasets::readFile(TESSERA_SOURCE_DIR "/experiments/bin-capacity/sweep.toml"),
+            datasets::readFile(TESSERA_SOURCE_DIR "/experiments/culling/sweep.toml")},
            [](const fs::path& path) {
              for (const bool quick : {false, true}) harness::cells(harness::readSweep(path, quick));
            }},

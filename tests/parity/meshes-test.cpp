@@ -47,7 +47,7 @@ PLACE_AND_SWIFTSHADER_TEST_CASE("Real meshes have the oracle's bits without bins
 }
 
 PLACE_AND_SWIFTSHADER_TEST_CASE("Generated meshes have the oracle's bits", "[meshes]") {
-  for (const Generator& generator : generators())
+  for (const datasets::Generator& generator : datasets::generators())
     for (const Size size : sizesFor(machine)) {
       if (machine.info().correctnessOnly && size.width == 4096) continue;  // seconds each: the real meshes are enough there
       // Their defaults once; at the other sizes they would take more time than all else together and show nothing that

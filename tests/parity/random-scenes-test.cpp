@@ -35,7 +35,7 @@ std::size_t variantsOfScene(const Machine& machine) {
 }
 
 /// The axes that are no raster path, each value as often as the others where it goes with those before it.
-Variant drawOthers(const Machine& machine, const Scene& scene, const Variant& path, Random& random) {
+Variant drawOthers(const Machine& machine, const Scene& scene, const Variant& path, datasets::Random& random) {
   Variant variant = path;
   for (const std::string& name : implementationAxes()) {
     if (variant.has(name)) continue;
@@ -79,7 +79,7 @@ PLACE_AND_SWIFTSHADER_TEST_CASE("Random scenes have the oracle's bits under all 
     if (machine.isSwiftShader() && !isMild(scene)) continue;
     const Variant image = randomImage(seed);
     const oracle::Result oracle = oracle::render(scene, oracle::imageAxesOf(image));
-    Random random(seed);
+    datasets::Random random(seed);
     for (std::size_t i = 0; i < variantsOfScene(machine) && failures < 3; ++i, ++next) {
       // A path comes with one of the images only, so that it has one raster kernel.
       const std::size_t chosen = (next % (paths.size() / kImages + 1)) * kImages + seed % kImages;

@@ -16,7 +16,7 @@ namespace {
 
 /// One triangle on a raster of 512 x 512, with a sample exactly on the middle of its first edge, where the exact E is 0 and
 /// the terms of the plane equation have more than 24 bits to cancel.
-Scene triangleThroughSample(Random& random) {
+Scene triangleThroughSample(datasets::Random& random) {
   const auto below = [&](std::uint64_t n) { return static_cast<int>(random.bits() % n); };
   const int x = 256 * (128 + below(256)) + 128, y = 256 * (128 + below(256)) + 128;  // 1/256 pixel
   const int dx = below(30000) - 15000, dy = below(30000) - 15000;
@@ -72,7 +72,7 @@ Scene closeLayers() {
 }  // namespace
 
 PLACE_TEST_CASE("Float32 edges are wrong near edges only and somewhere", "[approximate]") {
-  Random random(7);
+  datasets::Random random(7);
   std::size_t wrongPlane = 0, wrongDifference = 0;
   const int triangles = machine.info().api == "cpu" ? 300 : 100;  // some 7 of 100 err
   for (int i = 0; i < triangles; ++i) {

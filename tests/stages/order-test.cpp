@@ -76,7 +76,7 @@ PLACE_TEST_CASE("The order of triangles changes ids and no depth", "[order]") {
   const Scene scene = loadInput("generate:soup?count=3000&pixels=2000", 300, 300);
   std::vector<std::uint32_t> order(scene.triangles.size());
   for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
-  Random random(4);
+  datasets::Random random(4);
   for (std::uint32_t i = static_cast<std::uint32_t>(order.size()); i > 1; --i)
     std::swap(order[i - 1], order[random.bits() % i]);
   Scene shuffled = scene;

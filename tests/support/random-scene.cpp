@@ -206,7 +206,7 @@ class Maker {
     scene_.clipFromObject = {1.25f, 0, 0, 0, 0, 1.0f / 0.75f, 0, 0, 0, 0, 1, 0, 0, 0, slope, 1};
   }
 
-  Random random_;
+  datasets::Random random_;
   Scene scene_;
   std::vector<Point> points_;  // of each vertex, as it was meant
   bool powerOfTwo_ = false, object_ = false;

@@ -31,19 +31,19 @@ TEST_CASE("A journal that another sweep has begun or added to stays as it is") {
                   {"jobs", {"s@cpu"}},
                   {"cells", Json::array()}};
   Journal::create(folder, head);
-  const std::string first = readFile(journalOf(folder));
+  const std::string first = datasets::readFile(journalOf(folder));
   CHECK_THROWS_WITH(Journal::create(folder, head), Catch::Contains("another sweep has begun there meanwhile"));
-  CHECK(readFile(journalOf(folder)) == first);
+  CHECK(datasets::readFile(journalOf(folder)) == first);
   const auto entries = std::filesystem::directory_iterator(folder);
   CHECK(std::distance(begin(entries), end(entries)) == 1);
 
   const std::size_t before = readJournal(folder).bytes;
   std::ofstream(journalOf(folder), std::ios::app)
       << R"({"kind":"session","session":0,"utc":"2026-11-23T12:00:00Z","load":[0,0,0],"jobs":{"s@cpu":null}})" << '\n';
-  const std::string added = readFile(journalOf(folder));
+  const std::string added = datasets::readFile(journalOf(folder));
   Journal journal(folder);
   CHECK_THROWS_WITH(journal.cut(before), Catch::Contains("another sweep has written to it meanwhile"));
-  CHECK(readFile(journalOf(folder)) == added);
+  CHECK(datasets::readFile(journalOf(folder)) == added);
 }
 
 namespace {
@@ -111,12 +111,12 @@ TEST_CASE("Rows that the journal beside them has lost stay as they are") {
   const std::string whole = smallJournal(), samplesGone = whole.substr(0, whole.rfind('\n', whole.size() - 2) + 1);
   put(journalOf(desk.path()), whole);
   deriveRows(desk.path());
-  const std::string rows = readFile(desk.path() / "rows.jsonl");
+  const std::string rows = datasets::readFile(desk.path() / "rows.jsonl");
   for (const auto& text : {samplesGone, whole.substr(0, whole.find('\n') + 1)}) {
     put(journalOf(desk.path()), text);
     CHECK_THROWS_WITH(deriveRows(desk.path()), Catch::Contains("rows.jsonl:1: "));
     CHECK_THROWS_WITH(recordOf(desk.path(), true), Catch::Contains("rows.jsonl:1: "));
-    CHECK(readFile(desk.path() / "rows.jsonl") == rows);
+    CHECK(datasets::readFile(desk.path() / "rows.jsonl") == rows);
   }
 }
 
@@ -125,7 +125,7 @@ TEST_CASE("Damaged journals are read or refused and never more") {
   const std::string whole = smallJournal();
   constexpr std::uint64_t kSeed = 14;
   INFO("seed " << kSeed);
-  Random random(kSeed);
+  datasets::Random random(kSeed);
   const auto below = [&](std::size_t n) { return static_cast<std::size_t>(random.bits() % n); };
   const std::array words{"null", "-1",   "1e400", "\"x\"", "[]", "{}", "true", "18446744073709551615",
                          "0.5",  "\x01", "\xff",  "\n",    "}",  "\""};

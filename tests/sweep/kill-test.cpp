@@ -48,7 +48,7 @@ void checkSamples(const Desk& desk, const std::string& folder) {
 TEST_CASE("A sweep killed twenty times ends with the rows of one that never was") {
   constexpr std::uint64_t kSeed = 20;
   INFO("seed " << kSeed);
-  tessera::Random random(kSeed);
+  tessera::datasets::Random random(kSeed);
   Desk desk;
   desk.write("tile.toml", tileSweep(kRounds, kRepeats));
   const auto whole = desk.tessera("sweep tile.toml --out whole");
