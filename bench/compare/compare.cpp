@@ -41,7 +41,7 @@ Comparison compareScene(const BenchScene& what, const Options& options, Rasteriz
   // Once each before any clock counts: kernels compile, buffers grow, pages are touched.
   const Framebuffer image = rasterizer.render(scene).image;
   result.difference = compare(image, draw.framebuffer());
-  result.covered = coveredPixels(image);
+  result.covered = measure::coveredPixels(image);
 
   const auto cpu = [&](std::vector<FrameTimes>& into) { into.push_back(rasterizer.render(scene, {}, {.readBack = false}).times); };
   const auto drawn = [&] {

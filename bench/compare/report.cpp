@@ -20,16 +20,16 @@ std::vector<std::uint64_t> totals(const std::vector<FrameTimes>& frames) {
 }
 
 /// Median and interquartile range of a[i] / b[i] over the rounds.
-Spread ratio(const std::vector<std::uint64_t>& a, const std::vector<std::uint64_t>& b) {
+measure::Spread ratio(const std::vector<std::uint64_t>& a, const std::vector<std::uint64_t>& b) {
   constexpr double kScale = 1e6;  // spread() takes integers
   std::vector<std::uint64_t> scaled;
   for (std::size_t i = 0; i < a.size(); ++i)
     scaled.push_back(static_cast<std::uint64_t>(kScale * static_cast<double>(a[i]) / static_cast<double>(b[i])));
-  const Spread s = spread(scaled);
+  const measure::Spread s = measure::spread(scaled);
   return {s.median / kScale, s.min / kScale, s.iqr / kScale};
 }
 
-std::string withSpread(const Spread& s) {
+std::string withSpread(const measure::Spread& s) {
   return support::milliseconds(s.median) + " ±" + support::milliseconds(s.iqr / 2);
 }
 
@@ -38,7 +38,7 @@ double noise(const Comparison& c) { return 100 * ratio(totals(c.again), totals(c
 
 std::string megabytes(std::uint64_t bytes) { return fmt::format("{:.0f}", static_cast<double>(bytes) * 1e-6); }
 
-Json spreadJson(const Spread& s) { return {{"median", s.median}, {"min", s.min}, {"iqr", s.iqr}}; }
+Json spreadJson(const measure::Spread& s) { return {{"median", s.median}, {"min", s.min}, {"iqr", s.iqr}}; }
 
 }  // namespace
 
@@ -49,10 +49,10 @@ std::string text(const Report& report) {
 
   Rows times{{"scene", "triangles", "covered", "CPU device, ms", "draw, ms", "draw / CPU", "A/A", "noise %", "coverage differs", "id differs"}};
   for (const Comparison& c : report.comparisons) {
-    const Spread faster = ratio(c.drawDevice, totals(c.cpu));
+    const measure::Spread faster = ratio(c.drawDevice, totals(c.cpu));
     times.push_back(
-        {c.scene, support::grouped(c.triangles), support::grouped(c.covered), withSpread(totalSpread(c.cpu)),
-         withSpread(spread(c.drawDevice)), fmt::format("{:.2f} ±{:.2f}", faster.median, faster.iqr / 2),
+        {c.scene, support::grouped(c.triangles), support::grouped(c.covered), withSpread(measure::totalSpread(c.cpu)),
+         withSpread(measure::spread(c.drawDevice)), fmt::format("{:.2f} ±{:.2f}", faster.median, faster.iqr / 2),
          fmt::format("{:.3f}", ratio(totals(c.again), totals(c.cpu)).median), fmt::format("{:.1f}", noise(c)),
          support::grouped(c.difference.coverage), support::grouped(c.difference.id)});
   }
@@ -64,11 +64,11 @@ std::string text(const Report& report) {
   Rows stages{{"stage of the CPU device, ms"}};
   for (const Comparison& c : report.comparisons) {
     stages[0].push_back(c.scene);
-    for (const auto& [stage, ns] : stageMedians(c.cpu))
+    for (const auto& [stage, ns] : measure::stageMedians(c.cpu))
       if (std::ranges::none_of(stages, [&](const auto& row) { return row[0] == stage; })) stages.push_back({stage});
   }
   for (const Comparison& c : report.comparisons) {
-    const auto medians = stageMedians(c.cpu);
+    const auto medians = measure::stageMedians(c.cpu);
     for (auto row = stages.begin() + 1; row != stages.end(); ++row) {
       const auto found = std::ranges::find(medians, (*row)[0], [](const auto& entry) { return entry.first; });
       row->push_back(found == medians.end() ? "-" : support::milliseconds(found->second));
@@ -91,17 +91,17 @@ std::string json(const Report& report, bool raw) {
                   {"triangles", c.triangles},
                   {"size", {c.size, c.size}},
                   {"rounds", c.cpu.size()},
-                  {"cpu_ns", spreadJson(totalSpread(c.cpu))},
-                  {"cpu_again_ns", spreadJson(totalSpread(c.again))},
-                  {"draw_device_ns", spreadJson(spread(c.drawDevice))},
-                  {"draw_wall_ns", spreadJson(spread(c.drawWall))},
+                  {"cpu_ns", spreadJson(measure::totalSpread(c.cpu))},
+                  {"cpu_again_ns", spreadJson(measure::totalSpread(c.again))},
+                  {"draw_device_ns", spreadJson(measure::spread(c.drawDevice))},
+                  {"draw_wall_ns", spreadJson(measure::spread(c.drawWall))},
                   {"draw_over_cpu", spreadJson(ratio(c.drawDevice, totals(c.cpu)))},
                   {"again_over_cpu", spreadJson(ratio(totals(c.again), totals(c.cpu)))},
                   {"covered", c.covered},
                   {"coverage_mismatch", c.difference.coverage.value()},
                   {"id_mismatch", c.difference.id.value()},
                   {"depth_max_abs", c.difference.depthMaxAbs.value()}};
-    for (const auto& [stage, ns] : stageMedians(c.cpu)) scene["cpu_stages_ns"][stage] = ns;
+    for (const auto& [stage, ns] : measure::stageMedians(c.cpu)) scene["cpu_stages_ns"][stage] = ns;
     if (raw)
       scene["samples_ns"] = {{"cpu", totals(c.cpu)}, {"cpu_again", totals(c.again)}, {"draw_device", c.drawDevice}, {"draw_wall", c.drawWall}};
     all["scenes"].push_back(scene);

@@ -58,25 +58,25 @@ std::string mismatches(const Difference& d) {
 }
 
 /// An implementation variant that differs: an error, but where the device's arithmetic promises nothing.
-void judge(Run& run, const CheckTools& tools) {
+void judge(measure::Run& run, const CheckTools& tools) {
   run.message = mismatches(*run.difference);
   const Probe probe = probeDevice(tools.device, tools.kernels, devices::routeOf(run.device, run.variant));
-  if (!probe.passed()) run.message += "; the device's arithmetic fails its probe: " + firstFailure(probe);
+  if (!probe.passed()) run.message += "; the device's arithmetic fails its probe: " + measure::firstFailure(probe);
   if (probe.passed() || probe.onlyFlushes()) run.status = "error";
 }
 
 bool hasMismatch(const std::optional<Difference>& difference) { return difference && !difference->equal(); }
 
 /// Of its own oracle where it differs from that, else of the one that is held to be true.
-void writePicture(Run& run, std::size_t number, const Framebuffer& image, const CheckTools& tools) {
+void writePicture(measure::Run& run, std::size_t number, const Framebuffer& image, const CheckTools& tools) {
   const bool own = hasMismatch(run.difference);
   if (!own && !hasMismatch(run.truthDifference)) return;
-  Oracle& oracle = tools.oracles.of(*run.scene, own ? run.variant : axes::joined(run.variant, run.truth));
+  measure::Oracle& oracle = tools.oracles.of(*run.scene, own ? run.variant : axes::joined(run.variant, run.truth));
   const Framebuffer expected = oracle.expected(image);
   run.picture = fmt::format("pictures/{}.png", number);
   try {
     std::filesystem::create_directories(tools.folder / "pictures");
-    ImageFacts facts = factsOf(run);
+    ImageFacts facts = measure::factsOf(run);
     facts.emplace_back("shows", "differences from the oracle");
     ImageOutput(tools.folder / run.picture)
         .write(
@@ -97,7 +97,7 @@ void writePicture(Run& run, std::size_t number, const Framebuffer& image, const 
 
 }  // namespace
 
-Oracle& Oracles::of(const Scene& scene, const Variant& resolved) {
+measure::Oracle& Oracles::of(const Scene& scene, const Variant& resolved) {
   const std::string image = imageText(resolved);
   const auto found = std::ranges::find_if(kept_, [&](const Kept& k) { return k.scene == &scene && k.image == image; });
   if (found != kept_.end()) {
@@ -111,19 +111,19 @@ Oracle& Oracles::of(const Scene& scene, const Variant& resolved) {
     held -= kept_.back().bytes;
     kept_.pop_back();
   }
-  kept_.push_front({&scene, image, bytes, std::make_unique<Oracle>(scene, resolved)});
+  kept_.push_front({&scene, image, bytes, std::make_unique<measure::Oracle>(scene, resolved)});
   return *kept_.front().oracle;
 }
 
 bool variesFromRunToRun(const Variant& resolved) { return resolved.get("overflow") == "drop"; }
 
 Difference errorOf(const Scene& scene, const Variant& resolved, const Framebuffer& image, Oracles& oracles) {
-  Oracle& oracle = oracles.of(scene, resolved);
+  measure::Oracle& oracle = oracles.of(scene, resolved);
   oracle.holdColours({});  // those of another cell say nothing of this one
   return oracle.against(image);
 }
 
-double checkCell(Run& run, std::size_t number, const CheckTools& tools) {
+double checkCell(measure::Run& run, std::size_t number, const CheckTools& tools) {
   const Scene& scene = *run.scene;
   const Variant asked = run.variant;
   const Plan plan = planOf(scene, asked, run.device, tools.kernels.files());
@@ -131,14 +131,14 @@ double checkCell(Run& run, std::size_t number, const CheckTools& tools) {
   run.plan = plan.entries;
   compile(scene, asked, run.device, tools.kernels);
   if (!tools.kernels.files().empty()) {
-    KernelCheck checked(scene, tools.kernels.files(), {{tools.deviceName, asked}});
+    measure::KernelCheck checked(scene, tools.kernels.files(), {{tools.deviceName, asked}});
     checked.run(tools.frame);
   }
 
   Rasterizer rasterizer(tools.device, tools.kernels);
   Frame frame;
   run.variant = asked;
-  tools.frame([&] { frame = measureRun(run, rasterizer, tools.kernels, 0); });
+  tools.frame([&] { frame = measure::measureRun(run, rasterizer, tools.kernels, 0); });
   run.peakBufferBytes = tools.device.peakBufferBytes();
   Framebuffer& image = frame.image;
 
@@ -151,17 +151,17 @@ double checkCell(Run& run, std::size_t number, const CheckTools& tools) {
   tools.frame([&] { rasterizer.render(scene, asked, {.readBack = false}); });
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 
-  measureError(run, image);
+  measure::measureError(run, image);
   std::vector<glm::vec3> colours;
   if (!image.colour.empty() && isApproximate(run.variant)) {
-    const Variant exact = exactVariant(asked, run.variant);
+    const Variant exact = measure::exactVariant(asked, run.variant);
     compile(scene, exact, run.device, tools.kernels);
     tools.frame([&] { colours = rasterizer.render(scene, exact).image.colour; });
   }
-  Oracle& oracle = tools.oracles.of(scene, run.variant);
+  measure::Oracle& oracle = tools.oracles.of(scene, run.variant);
   oracle.holdColours(std::move(colours));
   run.difference = oracle.against(image);
-  run.wrongWinners = wrongWinners(run.variant, *run.difference, oracle.expected(image), image);
+  run.wrongWinners = measure::wrongWinners(run.variant, *run.difference, oracle.expected(image), image);
   if (!run.truth.values().empty())
     run.truthDifference = errorOf(scene, axes::joined(run.variant, run.truth), image, tools.oracles);
   writePicture(run, number, image, tools);

@@ -18,14 +18,14 @@ namespace tessera::harness {
 /// The oracle's images of one job, each rendered once as long as there is room for it.
 class Oracles {
  public:
-  Oracle& of(const Scene& scene, const Variant& resolved);
+  measure::Oracle& of(const Scene& scene, const Variant& resolved);
 
  private:
   struct Kept {
     const Scene* scene;
     std::string image;
     std::size_t bytes;
-    std::unique_ptr<Oracle> oracle;
+    std::unique_ptr<measure::Oracle> oracle;
   };
   std::list<Kept> kept_;  ///< the one used last is in front
 };
@@ -48,7 +48,7 @@ struct PictureFailed : std::runtime_error {
 /// Fills `run`, which holds scene, variant as asked for, device and tools: plan, counters, error, picture, and status
 /// and message where an implementation variant differs from the oracle. Returns the seconds of a frame, kernels in
 /// place. Throws Error as Rasterizer does.
-double checkCell(Run& run, std::size_t number, const CheckTools& tools);
+double checkCell(measure::Run& run, std::size_t number, const CheckTools& tools);
 
 /// Whether two frames of it may differ: what they are in error by is measured frame by frame.
 bool variesFromRunToRun(const Variant& resolved);

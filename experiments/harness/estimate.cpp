@@ -103,9 +103,9 @@ class Meter {
     const Scene& scene = load(cell);
     const auto device = openDevice(cell.device, {.threads = cell.threads});
     KernelCache kernels({.files = cell.kernels});
-    compilingS_ += secondsOf([&] { compileKernels(kernels, {makePlan(scene, cell.asked, device->info())}); });
+    compilingS_ += secondsOf([&] { measure::compileKernels(kernels, {makePlan(scene, cell.asked, device->info())}); });
     compiled_ += kernels.statistics().compiled;
-    checkUserKernels(scene, cell.kernels, {{cell.device, cell.asked}});
+    measure::checkUserKernels(scene, cell.kernels, {{cell.device, cell.asked}});
     Rasterizer rasterizer(*device, kernels);
     GroupTimes times;
     Frame frame;

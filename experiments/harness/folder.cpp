@@ -37,11 +37,11 @@ std::optional<Record> recordOf(const fs::path& folder, bool resume) {
     failUsage(fmt::format("--out {}: holds a sweep already; --resume goes on with it, another folder begins anew",
                           folder.string()));
   Record record = readJournal(folder);
-  if (const int version = record.head.at("schema_version"); version != kRowSchemaVersion)
+  if (const int version = record.head.at("schema_version"); version != measure::kRowSchemaVersion)
     failUsage(
         fmt::format("{}:1: rows of version {}, this program's have {}; the program that began it goes on with it, or a "
                     "new folder begins anew",
-                    journalOf(folder).string(), version, kRowSchemaVersion));
+                    journalOf(folder).string(), version, measure::kRowSchemaVersion));
   checkRowsKept(folder, record);
   return record;
 }

@@ -111,11 +111,11 @@ void takeHead(Reading& reading, const fs::path& path, const Json& line) {
   Record& record = reading.record;
   if (textAt(line, "kind") != "head") failField("kind", &member(line, "kind"), "head");
   const auto version = wholeAt<std::uint16_t>(line, "schema_version");
-  if (version < kOldestRowSchema || version > kRowSchemaVersion)
+  if (version < kOldestRowSchema || version > measure::kRowSchemaVersion)
     failUsage(
         fmt::format("{}:1: rows of version {}, this program's have {}; the program that began it goes on with it, or a "
                     "new folder begins anew",
-                    path.string(), version, kRowSchemaVersion));
+                    path.string(), version, measure::kRowSchemaVersion));
   const Json& sweep = objectAt(line, "sweep");
   for (const char* const key : {"title", "question", "sha256"}) textAt(sweep, key);
   flagAt(line, "quick");

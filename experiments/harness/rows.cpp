@@ -33,13 +33,13 @@ Json samplesJson(const std::vector<Sample>& samples) {
 Json timeJson(const PointRecord& cell, const std::vector<Sample>& samples, const std::string& clock) {
   std::vector<FrameTimes> times;
   for (const Sample& sample : samples) times.push_back(sample.times);
-  const Spread total = totalSpread(times);
+  const measure::Spread total = measure::totalSpread(times);
   Json json = samplesJson(samples);
   json["median"] = total.median;
   json["min"] = total.min;
   json["iqr"] = total.iqr;
   json["stages"] = Json::object();
-  for (const auto& [stage, median] : stageMedians(times)) json["stages"][stage] = median;
+  for (const auto& [stage, median] : measure::stageMedians(times)) json["stages"][stage] = median;
   json["clock"] = clock;
   if (!cell.again.empty()) json["again"] = samplesJson(inOrder(cell.again));
   return json;

@@ -50,7 +50,7 @@ Json sweepJson(const Sweep& sweep, const SweepPoint& cell) {
 
 Json headOf(const Sweep& sweep, const std::vector<SweepPoint>& cells, const std::vector<Job>& jobs) {
   Json head{{"kind", "head"},
-            {"schema_version", kRowSchemaVersion},
+            {"schema_version", measure::kRowSchemaVersion},
             {"sweep", {{"title", sweep.title}, {"question", sweep.question}, {"sha256", sweep.sha256}}},
             {"quick", sweep.quick},
             {"rounds", sweep.rounds},
@@ -333,7 +333,7 @@ class Runner {
     getloadavg(load, 3);
     journal_->append({{"kind", "session"},
                       {"session", session_},
-                      {"utc", utcText()},
+                      {"utc", measure::utcText()},
                       {"load", {load[0], load[1], load[2]}},
                       {"jobs", provenance_}});
   }
@@ -370,11 +370,11 @@ class Runner {
     if (const auto found = planned_.find(number); found != planned_.end()) {
       row = found->second;
     } else {
-      Run run;
+      measure::Run run;
       run.variant = cells_[number].asked;
       run.truth = sweep_.truth;
       run.seed = sweep_.seed;
-      row = Json::parse(rowText(run));
+      row = Json::parse(measure::rowText(run));
       const SweepPoint& cell = cells_[number];
       row["scene"] = {{"name", sweep_.scenes[cell.scene].name}, {"size", {cell.size.width, cell.size.height}}};
     }

@@ -25,7 +25,7 @@ struct Line {
 double medianTime(const PointRecord& cell) {
   std::vector<FrameTimes> times;
   for (const Sample& sample : cell.samples) times.push_back(sample.times);
-  return totalSpread(times).median;
+  return measure::totalSpread(times).median;
 }
 
 /// Session and round -> median time of the turn, those that were taken again among them.

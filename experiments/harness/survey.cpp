@@ -64,7 +64,7 @@ Survey survey(const Sweep& sweep, const std::vector<SweepPoint>& cells, KernelCa
       const SweepScene& input = sweep.scenes[cell.scene];
       progress.at(cell.number, "loading " + input.name);
       scene = loadInput(input.input, cell.size.width, cell.size.height, input.attribute);
-      printNotes(*scene);
+      measure::printNotes(*scene);
       loaded = cell.scene;
       size = cell.size;
     }

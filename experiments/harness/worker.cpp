@@ -47,8 +47,8 @@ Json ended(const std::string& status, const std::string& message) {
 }
 
 /// And the clock that its times will be by, which rows have beside times only.
-Json rowJson(const Run& run) {
-  Json row = Json::parse(rowText(run));
+Json rowJson(const measure::Run& run) {
+  Json row = Json::parse(measure::rowText(run));
   row["clock"] = run.device.timeClock;
   return row;
 }
@@ -70,7 +70,7 @@ class Worker {
       const Scene& scene = sceneOf(cell);
       Device& device = deviceOf(cell);
       KernelCache& kernels = kernelsOf(cell);
-      Run run = beginOf(cell, device, kernels);
+      measure::Run run = beginOf(cell, device, kernels);
       std::string refused;
       try {
         for (const bool work : {false, true}) {
@@ -89,7 +89,7 @@ class Worker {
     }
     for (const auto& [files, list] : plans) {
       try {
-        compileKernels(*kernels_.at(files), list);
+        measure::compileKernels(*kernels_.at(files), list);
       } catch (const Error&) {  // a user's kernel, or one of ours: the check of each cell that takes it says so
       }
     }
@@ -109,7 +109,7 @@ class Worker {
     const auto [place, isNew] = scenes_.try_emplace({cell.size.width, cell.size.height});
     if (isNew) {
       place->second = loadInput(job_.input, cell.size.width, cell.size.height, job_.attribute);
-      printNotes(place->second);
+      measure::printNotes(place->second);
     }
     return place->second;
   }
@@ -132,8 +132,8 @@ class Worker {
     return *rasterizer;
   }
 
-  Run beginOf(const WorkerPoint& cell, const Device& device, const KernelCache& kernels) {
-    Run run = beginRun(sceneOf(cell), cell.asked, device, kernels);
+  measure::Run beginOf(const WorkerPoint& cell, const Device& device, const KernelCache& kernels) {
+    measure::Run run = measure::beginRun(sceneOf(cell), cell.asked, device, kernels);
     run.attributeRange = job_.attribute.range;
     run.truth = job_.truth;
     run.seed = job_.seed;
@@ -148,7 +148,7 @@ class Worker {
   void check(const WorkerPoint& cell) {
     const auto device = openDevice(job_.device, {.threads = cell.threads});
     KernelCache& kernels = kernelsOf(cell);
-    Run run = beginOf(cell, *device, kernels);
+    measure::Run run = beginOf(cell, *device, kernels);
     double seconds = 0;
     const auto under = [&](const std::function<void()>& frame) {
       const Watchdog::Watch watch(watchdog_, limit(*device, true));
@@ -157,7 +157,7 @@ class Worker {
     try {
       seconds = checkCell(run, cell.number, {*device, job_.device, kernels, oracles_, job_.folder, under});
     } catch (const Error& error) {
-      run.status = statusOf(error.code());
+      run.status = measure::statusOf(error.code());
       run.message = error.what();
     } catch (const std::bad_alloc&) {
       run.status = "error";
@@ -186,10 +186,10 @@ class Worker {
     Json stages = Json::object();
     for (const auto& [stage, ns] : frame.times.stages) stages[stage] = ns;
     Json sample{{"event", "sample"}, {"total_ns", frame.times.totalNs}, {"stages", std::move(stages)}};
-    if (varies) sample["error"] = Json::parse(differenceText(errorOf(scene, resolved, frame.image, oracles_)));
+    if (varies) sample["error"] = Json::parse(measure::differenceText(errorOf(scene, resolved, frame.image, oracles_)));
     send(out_, sample);
   } catch (const Error& error) {
-    send(out_, ended(statusOf(error.code()), error.what()));
+    send(out_, ended(measure::statusOf(error.code()), error.what()));
   } catch (const std::bad_alloc&) {
     send(out_, ended("error", "out of memory"));
   }

@@ -211,7 +211,7 @@ Scene sceneOf(const Options& options) {
                       done == 0 ? std::nullopt : std::optional(passed / here * (all - here)));
         });
   }();
-  printNotes(scene);
+  measure::printNotes(scene);
   return scene;
 }
 

@@ -205,7 +205,7 @@ Outcome compareFiles(const CompareOptions& options, const Request& request, std:
       comparison->add(outcome.a, outcome.b);
   };
   if (output) {
-    ImageFacts facts = factsOf("where two images differ");
+    ImageFacts facts = measure::factsOf("where two images differ");
     std::ranges::set_intersection(a.facts(), b.facts(), std::inserter(facts, facts.begin()));
     std::ranges::sort(facts);
     facts.erase(std::ranges::unique(facts, {}, [](const auto& fact) { return fact.first; }).begin(), facts.end());
@@ -243,7 +243,7 @@ std::string outcomeText(const CompareOptions& options, const Request& request, c
 std::string outcomeJson(const CompareOptions& options, const Request& request, const Outcome& outcome) {
   using Json = nlohmann::ordered_json;
   const auto json = [](const Difference& difference) {
-    Json result = Json::parse(differenceText(difference));
+    Json result = Json::parse(measure::differenceText(difference));
     const auto finite = [](const std::optional<double>& value) {
       return value && std::isfinite(*value) ? Json(*value) : Json();
     };

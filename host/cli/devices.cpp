@@ -29,14 +29,14 @@ std::string probeCell(Device& device, KernelCache* kernels, Route route, std::st
     const Probe probe = probeDevice(device, *kernels, route);
     for (const auto& result : probe.results)
       if (!result.passed || !result.required)
-        notes += fmt::format("{} ({}): {} {}{}\n", name, routeName(route), result.name,
+        notes += fmt::format("{} ({}): {} {}{}\n", name, measure::routeName(route), result.name,
                              result.passed     ? ""
                              : result.required ? "FAILED: "
                                                : "differs: ",
                              result.detail);
-    return verdictOf(probe);
+    return measure::verdictOf(probe);
   } catch (const Error& error) {
-    notes += fmt::format("{} ({}): the probe could not run: {}\n", name, routeName(route), error.what());
+    notes += fmt::format("{} ({}): the probe could not run: {}\n", name, measure::routeName(route), error.what());
     return "could not run";
   }
 }

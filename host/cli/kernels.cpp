@@ -123,7 +123,7 @@ ExitCode runKernels(const KernelsOptions& options) {
     for (auto& plan : defaultPlans(device->info())) plans.push_back(std::move(plan));
   }
   KernelCache kernels;
-  compileKernels(kernels, plans);
+  measure::compileKernels(kernels, plans);
   const KernelCache::Statistics statistics = kernels.statistics();
   if (options.quiet) return ExitCode::kDone;
   support::say(stdout, "{} kernels of the default variants are ready in {}, {} of them compiled now\n",

@@ -92,7 +92,7 @@ std::optional<Reduced> reduceToReplay(const Scene& scene, const Side& different,
   if (first != nullptr) there.emplace(*first, replay, files);
   const auto bothOf = [&](const Scene& some) {
     Framebuffer found = here.image(some);
-    Framebuffer right = there ? there->image(some) : Oracle(some, here.variant()).expected(found);
+    Framebuffer right = there ? there->image(some) : measure::Oracle(some, here.variant()).expected(found);
     return Pair{std::move(right), std::move(found)};
   };
   const auto differs = [&](const Scene& some) {

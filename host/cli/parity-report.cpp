@@ -24,7 +24,7 @@ std::string verdictTable(const std::vector<Outcome>& outcomes) {
   for (const auto& outcome : outcomes) {
     const bool compared = outcome.run.difference.has_value();
     const Difference difference = outcome.run.difference.value_or(Difference{});
-    const std::string probe = outcome.probe.results.empty() ? "not run" : verdictOf(outcome.probe);
+    const std::string probe = outcome.probe.results.empty() ? "not run" : measure::verdictOf(outcome.probe);
     rows.push_back({outcome.attempt.device, outcome.attempt.route, outcome.run.device.name, probe,
                     compared ? support::grouped(outcome.covered) : "-", support::grouped(difference.coverage),
                     support::grouped(difference.id), support::grouped(difference.depth),
@@ -38,22 +38,22 @@ std::string verdictTable(const std::vector<Outcome>& outcomes) {
 std::string timesTable(const std::vector<Outcome>& outcomes) {
   Rows rows{{"ms"}};
   for (const auto& outcome : outcomes)
-    for (const auto& [stage, median] : stageMedians(outcome.run.samples))
+    for (const auto& [stage, median] : measure::stageMedians(outcome.run.samples))
       if (std::none_of(rows.begin() + 1, rows.end(), [&](const auto& row) { return row[0] == stage; }))
         rows.push_back({stage});
   for (const auto& outcome : outcomes) {
     rows[0].push_back(outcome.attempt.name());
-    const auto medians = stageMedians(outcome.run.samples);
+    const auto medians = measure::stageMedians(outcome.run.samples);
     for (auto row = rows.begin() + 1; row != rows.end(); ++row) {
       const auto found =
           std::find_if(medians.begin(), medians.end(), [&](const auto& entry) { return entry.first == row->front(); });
       row->push_back(found == medians.end() ? "-" : support::milliseconds(found->second));
     }
   }
-  rows.push_back({frameLabel(outcomes.front().run)});
+  rows.push_back({measure::frameLabel(outcomes.front().run)});
   for (const auto& outcome : outcomes)
-    rows.back().push_back(outcome.run.samples.empty() ? "-"
-                                                      : support::milliseconds(totalSpread(outcome.run.samples).median));
+    rows.back().push_back(
+        outcome.run.samples.empty() ? "-" : support::milliseconds(measure::totalSpread(outcome.run.samples).median));
   return support::table(rows);
 }
 
@@ -68,7 +68,7 @@ std::string notes(const std::vector<Outcome>& outcomes) {
           outcome.attempt.name());
     else if (!outcome.probe.passed())
       text += fmt::format("{}: parity is not claimed, its arithmetic differs: {}\n", outcome.attempt.name(),
-                          firstFailure(outcome.probe));
+                          measure::firstFailure(outcome.probe));
     if (outcome.run.device.correctnessOnly && outcome.attempt.device != software) {
       software = outcome.attempt.device;
       text += fmt::format("{}: a software driver; its times say nothing about a GPU\n", software);

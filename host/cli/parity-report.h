@@ -24,7 +24,7 @@ struct Outcome {
   enum Verdict { kEqual, kNotClaimed, kDifferent, kRefused };
 
   Attempt attempt;
-  Run run;      ///< its difference is from the oracle; none when the device could not run
+  measure::Run run;                     ///< its difference is from the oracle; none when the device could not run
   std::optional<Difference> fromFirst;  ///< of an approximate variant: from the first device that could run it
   Probe probe;  ///< of the device's arithmetic; parity is claimed only where it passed or flushes denormals
   std::uint64_t covered = 0;  ///< pixels

@@ -72,7 +72,7 @@ std::string firstStageAgainst(const Frame& good, const Variant& goodVariant, con
   };
   const bool slots = same(std::array{"compact", "between-samples", "cull"});
   const bool bins = slots && same(std::array{"binning", "tile", "tile-test", "capacity", "size-class", "overflow"});
-  return firstStage(comparable(good, slots, bins), goodName, comparable(frame, slots, bins), name);
+  return measure::firstStage(comparable(good, slots, bins), goodName, comparable(frame, slots, bins), name);
 }
 
 }  // namespace tessera::cli

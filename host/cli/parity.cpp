@@ -78,7 +78,7 @@ class Parity {
     std::vector<Outcome> outcomes;
     support::Progress progress("parity", attempts_.size() + 1);
     progress.at(0, "oracle");
-    Oracle oracle(scene_, attempts_.front().variant);
+    measure::Oracle oracle(scene_, attempts_.front().variant);
     for (const auto& attempt : attempts_) {
       progress.at(outcomes.size() + 1, attempt.name());
       outcomes.push_back(tryOne(attempt, oracle));
@@ -122,29 +122,29 @@ class Parity {
         if (error.code() == ExitCode::kUsage) throw;  // a device that cannot run it says so in its own outcome
       }
     }
-    compileKernels(kernels_, plans);
-    std::vector<KernelRun> runs;
+    measure::compileKernels(kernels_, plans);
+    std::vector<measure::KernelRun> runs;
     for (const auto& attempt : attempts_) runs.push_back({attempt.device, attempt.variant});
-    checkUserKernels(scene_, kernels_.files(), runs);
+    measure::checkUserKernels(scene_, kernels_.files(), runs);
   }
 
-  Outcome tryOne(const Attempt& attempt, Oracle& oracle) {
+  Outcome tryOne(const Attempt& attempt, measure::Oracle& oracle) {
     Device& device = *devices_[attempt.device];
     Outcome outcome;
     outcome.attempt = attempt;
-    Run& run = outcome.run;
-    run = beginRun(scene_, attempt.variant, device, kernels_);
+    measure::Run& run = outcome.run;
+    run = measure::beginRun(scene_, attempt.variant, device, kernels_);
     try {
       outcome.probe = probeDevice(device, kernels_, devices::routeOf(run.device, attempt.variant));
       Rasterizer rasterizer(device, kernels_);
-      const Framebuffer image = measureRun(run, rasterizer, kernels_, options_.repeat).image;
+      const Framebuffer image = measure::measureRun(run, rasterizer, kernels_, options_.repeat).image;
       run.peakBufferBytes = device.peakBufferBytes();
       run.difference = oracle.against(image);
       if (!oracle.holdsColours())
         oracle.holdColours(image.colour);  // the first device's are what the others' have to be
       run.attributeRange = attributeOf(options_).range;
-      measureError(run, image);
-      outcome.covered = coveredPixels(image);
+      measure::measureError(run, image);
+      outcome.covered = measure::coveredPixels(image);
       if (isApproximate(attempt.variant)) {
         if (!first_) first_.emplace(attempt.name(), image);
         outcome.fromFirst = compare(first_->second, image);
@@ -155,7 +155,7 @@ class Parity {
       }
     } catch (const Error& error) {
       if (error.code() == ExitCode::kUsage) throw;
-      run.status = statusOf(error.code());
+      run.status = measure::statusOf(error.code());
       run.message = outcome.note = error.what();
       outcome.refusal = error.code();
     }
@@ -166,13 +166,13 @@ class Parity {
     const auto stages = [&](const Attempt& attempt) {
       return Rasterizer(*devices_[attempt.device], kernels_).render(scene_, attempt.variant, {.keepStages = true});
     };
-    return firstStage(stages(good), good.name(), stages(different), different.name());
+    return measure::firstStage(stages(good), good.name(), stages(different), different.name());
   }
 
   Side sideOf(const Attempt& attempt) { return {*devices_[attempt.device], attempt.variant}; }
 
   /// Where no device is right: by a variant that is, on the same device.
-  std::string stageByWitness(const Attempt& different, Oracle& oracle, support::Progress& progress) {
+  std::string stageByWitness(const Attempt& different, measure::Oracle& oracle, support::Progress& progress) {
     Device& device = *devices_[different.device];
     KernelCache own;
     for (const Witness& witness : witnesses(different.variant, !kernels_.files().empty())) {
@@ -256,7 +256,7 @@ ExitCode runParity(const ParityOptions& options) {
   const auto outcomes = parity.run();
   if (file) {
     std::string rows;
-    for (const auto& outcome : outcomes) rows += rowText(outcome.run) + '\n';
+    for (const auto& outcome : outcomes) rows += measure::rowText(outcome.run) + '\n';
     file->append(rows);
   }
   if (!options.quiet)

@@ -49,7 +49,7 @@ std::string countersText(const Counters& counters) {
   return text.substr(1);
 }
 
-std::string summary(const RenderOptions& options, const Run& run, std::uint64_t covered) {
+std::string summary(const RenderOptions& options, const measure::Run& run, std::uint64_t covered) {
   const Scene& scene = *run.scene;
   const double pixels = static_cast<double>(scene.width) * scene.height;
   std::string text = fmt::format("{}: {} triangles, {} x {}, {} pixels covered ({:.1f} %)\n", scene.name,
@@ -61,7 +61,7 @@ std::string summary(const RenderOptions& options, const Run& run, std::uint64_t 
   if (run.device.correctnessOnly) text += "a software driver: its times say nothing about a GPU\n";
   text += timesText(run);
   text += countersText(run.counters);
-  text += errorSummary(run);
+  text += measure::errorSummary(run);
   if (!options.outputs.empty())
     text += fmt::format("{} ms to load OpenImageIO, beside the frame that warms up\n",
                         support::milliseconds(1e6 * finishLoadingImages()));
@@ -70,18 +70,18 @@ std::string summary(const RenderOptions& options, const Run& run, std::uint64_t 
 }
 
 /// Renders into `run`; what it holds when this throws is still worth a row.
-Framebuffer renderFrames(const RenderOptions& options, Device& device, KernelCache& kernels, Run& run) {
+Framebuffer renderFrames(const RenderOptions& options, Device& device, KernelCache& kernels, measure::Run& run) {
   const Scene& scene = *run.scene;
   const Variant asked = run.variant;
   const bool countWork = !options.json.empty();
   std::vector<Plan> plans{makePlan(scene, asked, run.device)};
   if (countWork) plans.push_back(makePlan(scene, axes::counting(asked), run.device));
-  compileKernels(kernels, plans);
-  checkUserKernels(scene, kernels.files(), {{deviceName(options), asked}});
+  measure::compileKernels(kernels, plans);
+  measure::checkUserKernels(scene, kernels.files(), {{deviceName(options), asked}});
 
   Rasterizer rasterizer(device, kernels);
   support::Progress progress("render", options.repeat + 1);
-  Frame frame = measureRun(run, rasterizer, kernels, options.repeat, [&](unsigned done) {
+  Frame frame = measure::measureRun(run, rasterizer, kernels, options.repeat, [&](unsigned done) {
     if (done == 1 && !options.outputs.empty())
       finishLoadingImages();  // or the frames that are timed would share the cores with it
     progress.at(done);
@@ -92,10 +92,10 @@ Framebuffer renderFrames(const RenderOptions& options, Device& device, KernelCac
     for (const CounterDoc& doc : counterDocs())
       if (doc.work) run.counters[doc.name] = work.at(doc.name);
   }
-  measureError(run, frame.image);
+  measure::measureError(run, frame.image);
   if (options.error || isApproximate(run.variant)) {
     progress.at(options.repeat + 1, "oracle");
-    measureAgainstOracle(run, asked, frame.image, rasterizer);
+    measure::measureAgainstOracle(run, asked, frame.image, rasterizer);
   }
   return std::move(frame.image);
 }
@@ -114,31 +114,31 @@ ExitCode render(const RenderOptions& options) {
   const auto device = deviceOf(options);
   const Scene scene = sceneOf(options);
   if (!images.empty()) startLoadingImages();
-  Run run = beginRun(scene, variant, *device, kernels);
+  measure::Run run = measure::beginRun(scene, variant, *device, kernels);
   run.attributeRange = attributeOf(options).range;
   const auto writeRow = [&] {
-    if (rows) rows->append(rowText(run));
+    if (rows) rows->append(measure::rowText(run));
   };
   Framebuffer image;
   try {
     image = renderFrames(options, *device, kernels, run);
   } catch (const Error& error) {
     if (error.code() == ExitCode::kUsage) throw;
-    run.status = statusOf(error.code());
+    run.status = measure::statusOf(error.code());
     run.message = error.what();
     writeRow();
     throw;
   }
-  if (!scene.unseen && !scene.triangles.empty() && coveredPixels(image) == 0)
+  if (!scene.unseen && !scene.triangles.empty() && measure::coveredPixels(image) == 0)
     support::say(
         stderr,
         "warning: {}: no pixel is covered: all of it lies outside the view, between samples or edge-on to the camera\n",
         scene.name);
-  const ImageFacts facts = images.empty() ? ImageFacts{} : factsOf(run);
+  const ImageFacts facts = images.empty() ? ImageFacts{} : measure::factsOf(run);
   for (auto& output : images) output.write(image, run.attributeRange, facts);
   writeRow();
   if (options.quiet) return ExitCode::kDone;
-  support::say(onStdout ? stderr : stdout, "{}", summary(options, run, coveredPixels(image)));
+  support::say(onStdout ? stderr : stdout, "{}", summary(options, run, measure::coveredPixels(image)));
   support::say(stderr, "{}", timesWarning(run));
   return ExitCode::kDone;
 }

@@ -80,7 +80,7 @@ ExitCode runReport(const ReportOptions& options) {
   const Place place = bringRowsUpToDate(options.folder);
   const std::string report = options.out.empty() ? place.report.string() : options.out;
   // -I: neither the user's own packages nor $PYTHONPATH may get between; -B: nothing is written beside the sources.
-  const std::string schema = std::to_string(kRowSchemaVersion);
+  const std::string schema = std::to_string(measure::kRowSchemaVersion);
   std::vector<std::string> words{
       pythonProgram(), "-I",       "-B",  support::home().report.string(), place.rows.string(), "--out",
       report,          "--schema", schema};

@@ -11,8 +11,8 @@ namespace tessera::cli {
 inline constexpr double kWideSpread = 0.05;
 
 /// A table of the stages and the frame, and a line with the frame's median, range and count.
-std::string timesText(const Run& run);
+std::string timesText(const measure::Run& run);
 /// One line where the median may be off by more than kWideSpread; else "".
-std::string timesWarning(const Run& run);
+std::string timesWarning(const measure::Run& run);
 
 }  // namespace tessera::cli

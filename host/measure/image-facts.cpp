@@ -11,7 +11,7 @@
 #include "host/build-info.h"
 #include "host/support/matrix.h"
 
-namespace tessera {
+namespace tessera::measure {
 namespace {
 
 constexpr char kVersion[] = TESSERA_VERSION " (" TESSERA_GIT ")";
@@ -66,4 +66,4 @@ ImageFacts factsOf(const Run& run) {
   return facts;
 }
 
-}  // namespace tessera
+}  // namespace tessera::measure

@@ -5,7 +5,7 @@
 
 #include "host/measure/row.h"
 
-namespace tessera {
+namespace tessera::measure {
 
 /// Of a frame's image: the scene's hash, its camera (clip space from the input's coordinates, row-major) and origin,
 /// the raster, each axis value that is not an implementation's, the attribute and its range, the user's kernels by
@@ -14,4 +14,4 @@ ImageFacts factsOf(const Run& run);
 /// The version alone: of a picture that is no frame, with what it shows.
 ImageFacts factsOf(const std::string& shows);
 
-}  // namespace tessera
+}  // namespace tessera::measure

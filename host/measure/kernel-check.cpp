@@ -19,7 +19,7 @@
 #include "host/plan/stages.h"
 #include "host/support/terminal.h"
 
-namespace tessera {
+namespace tessera::measure {
 namespace {
 
 constexpr auto kPatience = std::chrono::seconds(10);
@@ -152,4 +152,4 @@ void checkUserKernels(const Scene& scene, const KernelFiles& files, const std::v
   KernelCheck(scene, files, runs).run([](const auto& render) { render(); });
 }
 
-}  // namespace tessera
+}  // namespace tessera::measure

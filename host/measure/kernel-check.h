@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace tessera {
+namespace tessera::measure {
 
 /// What the kernels will run in: a device by the name that openDevice() takes, and the variant as asked for there.
 struct KernelRun {
@@ -41,4 +41,4 @@ class KernelCheck {
 /// zero, end the process with a line from then on.
 void checkUserKernels(const Scene& scene, const KernelFiles& files, const std::vector<KernelRun>& runs);
 
-}  // namespace tessera
+}  // namespace tessera::measure

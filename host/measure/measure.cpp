@@ -17,7 +17,7 @@
 #include "host/support/progress.h"
 #include "host/support/terminal.h"
 
-namespace tessera {
+namespace tessera::measure {
 
 void printNotes(const Scene& scene) {
   static std::set<std::string> printed;
@@ -99,4 +99,4 @@ std::string frameLabel(const Run& run) {
   return after.empty() ? "frame" : fmt::format("frame without {}", fmt::join(after, ", "));
 }
 
-}  // namespace tessera
+}  // namespace tessera::measure

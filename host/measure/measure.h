@@ -9,7 +9,7 @@
 
 #include "host/measure/row.h"
 
-namespace tessera {
+namespace tessera::measure {
 
 /// Prints what a user would not expect of a scene as warnings, each line once a process.
 void printNotes(const Scene& scene);
@@ -32,4 +32,4 @@ void measureError(Run& run, const Framebuffer& image);
 /// A table's name for the whole frame's time, which ends with the visibility buffer.
 std::string frameLabel(const Run& run);
 
-}  // namespace tessera
+}  // namespace tessera::measure

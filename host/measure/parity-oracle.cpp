@@ -7,7 +7,7 @@
 
 #include "host/oracle/oracle-image.h"
 
-namespace tessera {
+namespace tessera::measure {
 Oracle::Oracle(const Scene& scene, const Variant& variant)
     : image_(oracle::render(scene, oracle::imageAxesOf(variant)).image) {}
 
@@ -50,4 +50,4 @@ std::string firstStage(const Frame& good, const std::string& goodName, const Fra
   return "no stage output differs: the images part after the last one, or the frames ran in several parts";
 }
 
-}  // namespace tessera
+}  // namespace tessera::measure

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace tessera {
+namespace tessera::measure {
 
 /// The oracle does not shade: without colours from elsewhere there are none to compare.
 class Oracle {
@@ -30,4 +30,4 @@ class Oracle {
 /// One line: the first stage, and the first element and word of its output, in which `frame` is not as `good`.
 std::string firstStage(const Frame& good, const std::string& goodName, const Frame& frame, const std::string& name);
 
-}  // namespace tessera
+}  // namespace tessera::measure

@@ -2,7 +2,7 @@
 
 #include "host/axes/routes.h"
 
-namespace tessera {
+namespace tessera::measure {
 
 std::string routeName(Route route) { return axes::routeInfo(route).name; }
 
@@ -16,4 +16,4 @@ std::string firstFailure(const Probe& probe) {
   return "";
 }
 
-}  // namespace tessera
+}  // namespace tessera::measure

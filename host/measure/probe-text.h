@@ -6,10 +6,10 @@
 
 #include <string>
 
-namespace tessera {
+namespace tessera::measure {
 
 std::string routeName(Route route);            ///< as on the axis `route`
 std::string verdictOf(const Probe& probe);     ///< "passed", "flushes denormals" or "FAILED"
 std::string firstFailure(const Probe& probe);  ///< "divide: 1/3 gives ..."; "" when it passed
 
-}  // namespace tessera
+}  // namespace tessera::measure

@@ -8,7 +8,7 @@
 #include "host/measure/parity-oracle.h"
 #include "host/support/table.h"
 
-namespace tessera {
+namespace tessera::measure {
 namespace {
 
 bool approximates(const std::string& name, const std::string& value) {
@@ -99,4 +99,4 @@ std::string errorSummary(const Run& run) {
   return text;
 }
 
-}  // namespace tessera
+}  // namespace tessera::measure

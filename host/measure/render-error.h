@@ -7,7 +7,7 @@
 
 #include "host/measure/row.h"
 
-namespace tessera {
+namespace tessera::measure {
 
 /// `asked` without its approximate values. Shading stays what it was, where it was such a value that brought it in.
 Variant exactVariant(const Variant& asked, const Variant& resolved);
@@ -24,4 +24,4 @@ Difference::Count wrongWinners(const Variant& resolved, const Difference& differ
 /// A line for each error that `run` has; "" where none was measured.
 std::string errorSummary(const Run& run);
 
-}  // namespace tessera
+}  // namespace tessera::measure

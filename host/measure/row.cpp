@@ -16,7 +16,7 @@
 #include "host/support/machine.h"
 #include "host/support/terminal.h"
 
-namespace tessera {
+namespace tessera::measure {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -209,4 +209,4 @@ std::string rowText(const Run& run) {
   return support::visible(row.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
-}  // namespace tessera
+}  // namespace tessera::measure

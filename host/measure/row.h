@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-namespace tessera {
+namespace tessera::measure {
 
 inline constexpr int kRowSchemaVersion = 3;
 
@@ -72,4 +72,4 @@ std::string utcText();
 /// The row, without a line's end. Bytes of names that are not UTF-8 are replaced.
 std::string rowText(const Run& run);
 
-}  // namespace tessera
+}  // namespace tessera::measure

@@ -10,8 +10,8 @@ using namespace tessera;
 
 namespace {
 
-Run runOf(const std::vector<std::uint64_t>& totals) {
-  Run run;
+measure::Run runOf(const std::vector<std::uint64_t>& totals) {
+  measure::Run run;
   for (const std::uint64_t ns : totals) run.samples.push_back({.totalNs = ns, .stages = {}});
   return run;
 }
@@ -38,7 +38,7 @@ TEST_CASE("Render warns where its own samples are too far apart and nowhere else
     const auto outcome = desk.tessera("render generate:icosphere?level=1 --size 16x16 --repeat 3 --json - ");
     INFO(outcome.err);
     REQUIRE(outcome.code == 0);
-    Run run = runOf(nlohmann::json::parse(outcome.out)["time_ns"]["samples"]);
+    measure::Run run = runOf(nlohmann::json::parse(outcome.out)["time_ns"]["samples"]);
     const std::string warning = cli::timesWarning(run);
     const std::size_t at = outcome.err.find("warning: the frames took");
     CHECK((at == std::string::npos ? "" : outcome.err.substr(at)) == warning);

@@ -35,7 +35,7 @@ class Watched {
   Frame render(const Scene& scene, const Variant& variant) {
     INFO(scene.name << " [" << variant.text() << "]");
     Frame frame = rasterizer_->render(scene, variant);
-    CHECK((coveredPixels(frame.image) > 0) == !scene.triangles.empty());
+    CHECK((measure::coveredPixels(frame.image) > 0) == !scene.triangles.empty());
     CHECK(messages == std::vector<std::string>{});
     return frame;
   }
@@ -94,7 +94,7 @@ TEST_CASE("validation is silent over retries and clipping and empty frames") {
   CHECK(watched.render(ring, {{"commit", "two-pass"}}).counters.at("clipped") > 0);
   Scene empty;
   empty.width = empty.height = 17;
-  CHECK(coveredPixels(watched.render(empty, {}).image) == 0);
+  CHECK(measure::coveredPixels(watched.render(empty, {}).image) == 0);
 }
 
 TEST_CASE("validation is silent over bounds checks, which find nothing in our kernels and change no bit") {

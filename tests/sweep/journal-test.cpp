@@ -23,7 +23,7 @@ TEST_CASE("A journal that another sweep has begun or added to stays as it is") {
   const support::TemporaryFolder desk(std::filesystem::temp_directory_path(), "tessera-journal");
   const auto& folder = desk.path();
   const Json head{{"kind", "head"},
-                  {"schema_version", kRowSchemaVersion},
+                  {"schema_version", measure::kRowSchemaVersion},
                   {"sweep", {{"title", "T"}, {"question", "Q"}, {"sha256", "0"}}},
                   {"quick", false},
                   {"rounds", 1},

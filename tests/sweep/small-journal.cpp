@@ -23,7 +23,7 @@ std::string smallJournal() {
                         {"scene", "s"},
                         {"device", "cpu"},
                         {"threads", 1}});
-  const Json row{{"schema_version", kRowSchemaVersion},
+  const Json row{{"schema_version", measure::kRowSchemaVersion},
                  {"run_id", "r"},
                  {"variant", {{"tile", "8"}}},
                  {"scene", {{"name", "s"}, {"size", {8, 8}}}},
@@ -32,7 +32,7 @@ std::string smallJournal() {
                  {"provenance", {{"cpu", "c"}, {"kernels", {{"setup", "h"}}}}},
                  {"clock", "wall"}};
   return lineOf({{"kind", "head"},
-                 {"schema_version", kRowSchemaVersion},
+                 {"schema_version", measure::kRowSchemaVersion},
                  {"sweep", sweep},
                  {"quick", false},
                  {"rounds", 2},
