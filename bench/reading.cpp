@@ -16,7 +16,7 @@
 #include "datasets/text.h"
 #include "host/support/files.h"
 
-namespace tessera {
+namespace tessera::bench {
 namespace {
 
 constexpr double kTextBar = 200e6, kBinaryBar = 1e9;
@@ -149,17 +149,17 @@ void normals(benchmark::State& state) {
 }
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::bench
 
 int main(int argc, char** argv) {
   const tessera::support::TemporaryFolder folder(std::filesystem::temp_directory_path(), "bench-reading");
-  for (const tessera::Case& one : tessera::kCases)
+  for (const tessera::bench::Case& one : tessera::bench::kCases)
     benchmark::RegisterBenchmark(
         ("read:" + one.name).c_str(),
-        [&](benchmark::State& state) { tessera::read(state, one, (folder.path() / one.file).string()); })
+        [&](benchmark::State& state) { tessera::bench::read(state, one, (folder.path() / one.file).string()); })
         ->UseManualTime()
         ->Unit(benchmark::kMillisecond);
-  benchmark::RegisterBenchmark("normals", tessera::normals)->Unit(benchmark::kMillisecond);
+  benchmark::RegisterBenchmark("normals", tessera::bench::normals)->Unit(benchmark::kMillisecond);
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
   benchmark::RunSpecifiedBenchmarks();

@@ -33,7 +33,7 @@ Scene soup(std::uint32_t triangles, std::uint32_t width, std::uint32_t height) {
 
 TEST_CASE("the draw covers the oracle's pixels on lavapipe") {
   const Scene scene = soup(40, 301, 203);
-  DrawBaseline baseline(scene, "llvmpipe", true);
+  bench::DrawBaseline baseline(scene, "llvmpipe", true);
   const Framebuffer drawn = baseline.framebuffer();
   const Framebuffer expected = oracle::render(scene).image;
   REQUIRE(drawn.ids.size() == expected.ids.size());
@@ -51,9 +51,9 @@ TEST_CASE("the draw covers the oracle's pixels on lavapipe") {
 }
 
 TEST_CASE("the draw is timed on both clocks") {
-  DrawBaseline baseline(soup(200, 512, 512), "llvmpipe", true);
+  bench::DrawBaseline baseline(soup(200, 512, 512), "llvmpipe", true);
   for (int i = 0; i < 3; ++i) {
-    const DrawTime time = baseline.time();
+    const bench::DrawTime time = baseline.time();
     CHECK(time.deviceNs > 1000);
     CHECK(time.deviceNs <= time.wallNs);
   }
@@ -62,10 +62,10 @@ TEST_CASE("the draw is timed on both clocks") {
 TEST_CASE("an empty scene is drawn empty and a bad index is refused") {
   Scene scene;
   scene.width = scene.height = 4;
-  const Framebuffer frame = DrawBaseline(scene, "llvmpipe").framebuffer();
+  const Framebuffer frame = bench::DrawBaseline(scene, "llvmpipe").framebuffer();
   CHECK(frame.ids == std::vector<std::uint32_t>(16, kNoTriangle));
   CHECK(frame.depth == std::vector<float>(16, 1.0f));
   scene = soup(1, 4, 4);
   scene.triangles[0][1] = 3;
-  CHECK_THROWS_AS(DrawBaseline(scene, "llvmpipe"), Error);
+  CHECK_THROWS_AS(bench::DrawBaseline(scene, "llvmpipe"), Error);
 }

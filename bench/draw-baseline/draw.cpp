@@ -12,7 +12,7 @@
 #include "draw-vert.h"
 #include "host/devices/vulkan/memory.h"
 
-namespace tessera {
+namespace tessera::bench {
 namespace {
 
 using devices::vulkan::Block;
@@ -246,4 +246,4 @@ Framebuffer DrawBaseline::framebuffer() {
   });
 }
 
-}  // namespace tessera
+}  // namespace tessera::bench

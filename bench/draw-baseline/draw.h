@@ -10,7 +10,7 @@
 #include <memory>
 #include <string>
 
-namespace tessera {
+namespace tessera::bench {
 
 struct DrawTime {
   std::uint64_t deviceNs = 0;  ///< between timestamps around the clear and the draw
@@ -36,4 +36,4 @@ class DrawBaseline {
   std::unique_ptr<State> state_;
 };
 
-}  // namespace tessera
+}  // namespace tessera::bench
