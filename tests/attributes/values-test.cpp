@@ -14,6 +14,7 @@
 #include "tests/support/streams.h"
 
 using namespace tessera;
+using namespace tessera::test;
 using oracle::Fill, oracle::ImageAxes;
 
 namespace {

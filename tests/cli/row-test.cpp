@@ -7,6 +7,7 @@
 #include "tests/support/streams.h"
 
 using namespace tessera;
+using namespace tessera::test;
 
 TEST_CASE("Order statistics of a sample") {
   CHECK(measure::spread({}).median == 0);

@@ -6,6 +6,7 @@
 #include "fixture.h"
 
 using namespace tessera;
+using namespace tessera::test;
 
 namespace {
 

@@ -2,7 +2,7 @@
 
 #include <fstream>
 
-namespace tessera {
+namespace tessera::test {
 
 std::string Files::write(const std::string& name, std::string_view text) const {
   std::ofstream file(folder_.path() / name, std::ios::binary);
@@ -19,4 +19,4 @@ std::string readError(const Files& files, const std::string& name, std::string_v
   return name + line.substr(path.size());
 }
 
-}  // namespace tessera
+}  // namespace tessera::test

@@ -11,7 +11,7 @@
 
 #include "host/support/files.h"
 
-namespace tessera {
+namespace tessera::test {
 
 class Files {
  public:
@@ -42,4 +42,4 @@ std::string usageError(Action action) {
 /// usageError() of reading a mesh, without the file's folder.
 std::string readError(const Files& files, const std::string& name, std::string_view text);
 
-}  // namespace tessera
+}  // namespace tessera::test

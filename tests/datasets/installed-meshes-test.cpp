@@ -8,6 +8,7 @@
 #include "fixture.h"
 
 using namespace tessera;
+using namespace tessera::test;
 
 TEST_CASE("Real meshes are read whole") {
   const Files files;

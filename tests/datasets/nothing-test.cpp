@@ -4,6 +4,7 @@
 #include "fixture.h"
 
 using namespace tessera;
+using namespace tessera::test;
 
 namespace {
 

@@ -4,6 +4,7 @@
 #include "fixture.h"
 
 using namespace tessera;
+using namespace tessera::test;
 
 namespace {
 const std::string kFour = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";

@@ -1,6 +1,7 @@
 #include "fixture.h"
 
 using namespace tessera;
+using namespace tessera::test;
 
 TEST_CASE("OFF: polygons are fanned, duplicate and non-manifold faces stay in order") {
   const Files files;

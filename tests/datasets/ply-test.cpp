@@ -5,6 +5,7 @@
 #include "fixture.h"
 
 using namespace tessera;
+using namespace tessera::test;
 
 namespace {
 

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace tessera {
+namespace tessera::test {
 
 inline const std::vector<std::string> kPlyFormats{"ascii", "binary_little_endian", "binary_big_endian"};
 inline const std::vector<std::string> kPlyTypes{"char",   "int8",    "uchar",  "uint8",  "short", "int16",
@@ -68,4 +68,4 @@ class PlyData {
   std::string format_, bytes_;
 };
 
-}  // namespace tessera
+}  // namespace tessera::test

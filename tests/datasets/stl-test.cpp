@@ -8,6 +8,7 @@
 #include "fixture.h"
 
 using namespace tessera;
+using namespace tessera::test;
 
 namespace {
 

@@ -18,6 +18,7 @@
 #include "seeds.h"
 
 using namespace tessera;
+using namespace tessera::test;
 
 namespace {
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <utility>
 
-namespace tessera {
+namespace tessera::test {
 namespace {
 
 constexpr std::size_t kMost = 1 << 16;  // bytes: a file need not grow to show a fault
@@ -158,4 +158,4 @@ std::string mutate(std::string text, std::string_view other, datasets::Random& r
   return text;
 }
 
-}  // namespace tessera
+}  // namespace tessera::test

@@ -16,7 +16,7 @@
 #include "tests/support/streams.h"
 #include "tests/sweep/small-journal.h"
 
-namespace tessera {
+namespace tessera::test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -154,4 +154,4 @@ std::vector<Target> targets(const fs::path& folder) {
            }}};
 }
 
-}  // namespace tessera
+}  // namespace tessera::test

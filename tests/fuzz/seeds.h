@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace tessera {
+namespace tessera::test {
 
 struct Target {
   std::string name;  ///< of the file that it reads, too
@@ -18,4 +18,4 @@ struct Target {
 /// `folder` is where seeds are made that a writer of ours makes.
 std::vector<Target> targets(const std::filesystem::path& folder);
 
-}  // namespace tessera
+}  // namespace tessera::test

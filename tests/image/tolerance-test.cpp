@@ -10,6 +10,7 @@
 #include "tests/support/streams.h"
 
 using namespace tessera;
+using namespace tessera::test;
 using Catch::Matchers::Contains;
 
 namespace {

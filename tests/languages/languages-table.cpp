@@ -18,7 +18,7 @@
 #include "host/support/subprocess.h"
 #include "tests/support/streams.h"
 
-namespace tessera {
+namespace tessera::test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -149,11 +149,11 @@ class Table {
 };
 
 }  // namespace
-}  // namespace tessera
+}  // namespace tessera::test
 
 int main() {
   try {
-    fmt::print("{}", tessera::Table().text());
+    fmt::print("{}", tessera::test::Table().text());
     return 0;
   } catch (const std::exception& error) {
     fmt::print(stderr, "{}\n", error.what());

@@ -11,6 +11,7 @@
 #include "tests/support/variants.h"
 
 using namespace tessera;
+using namespace tessera::test;
 
 namespace {
 

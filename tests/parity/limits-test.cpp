@@ -8,6 +8,7 @@
 #include "tests/support/variants.h"
 
 using namespace tessera;
+using namespace tessera::test;
 
 PLACE_TEST_CASE("Nothing of 500000 triangles in one block is lost", "[limits]") {
   // By way of GLSL a fifth: the other route to the same driver has them all.

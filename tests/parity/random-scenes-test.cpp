@@ -13,6 +13,7 @@
 #include "tests/support/variants.h"
 
 using namespace tessera;
+using namespace tessera::test;
 
 namespace {
 

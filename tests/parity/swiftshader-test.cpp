@@ -8,6 +8,7 @@
 #include "tests/support/variants.h"
 
 using namespace tessera;
+using namespace tessera::test;
 
 TEST_CASE("Each implementation value alone has the oracle's bits on SwiftShader", "[swiftshader]") {
   Machine* const machine = machineAt<SwiftShader>();

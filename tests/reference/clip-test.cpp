@@ -10,6 +10,7 @@
 #include "tests/reference/in-pixels.h"
 
 using namespace tessera;
+using namespace tessera::test;
 using glm::vec4;
 
 namespace {

@@ -11,6 +11,7 @@
 #include "tests/reference/in-pixels.h"
 
 using namespace tessera;
+using namespace tessera::test;
 using oracle::Cull;
 
 namespace {

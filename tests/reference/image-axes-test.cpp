@@ -11,6 +11,7 @@
 #include "tests/reference/in-pixels.h"
 
 using namespace tessera;
+using namespace tessera::test;
 using oracle::Fill, oracle::ImageAxes, oracle::Interpolate, oracle::Piece;
 
 namespace {

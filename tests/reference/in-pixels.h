@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace tessera {
+namespace tessera::test {
 
 struct PixelVertex {
   float x, y, z = 0.5f;  ///< pixels from the top left corner; depth
@@ -33,4 +33,4 @@ inline std::vector<Triangle> inThrees(std::size_t vertices) {
   return triangles;
 }
 
-}  // namespace tessera
+}  // namespace tessera::test

@@ -4,7 +4,7 @@
 #include "host/kernels/spirv.h"
 #include "host/plan/stages.h"
 
-namespace tessera {
+namespace tessera::test {
 namespace {
 
 std::vector<std::uint32_t> rasterModule(const Variant& variant) {
@@ -283,4 +283,4 @@ const Evidence kEvidence{
 
 const Evidence& rasterEvidence() { return kEvidence; }
 
-}  // namespace tessera
+}  // namespace tessera::test

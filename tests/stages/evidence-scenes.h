@@ -11,7 +11,7 @@
 #include "tests/support/compare.h"
 #include "tests/support/machines.h"
 
-namespace tessera {
+namespace tessera::test {
 
 /// The sphere fills 300 x 300 pixels; some of its triangles lie between samples.
 inline Scene sphere() { return loadInput("generate:icosphere?level=5", 300, 300); }
@@ -67,4 +67,4 @@ inline int finestBit(const std::vector<int>& values) {
   return bits & -bits;
 }
 
-}  // namespace tessera
+}  // namespace tessera::test

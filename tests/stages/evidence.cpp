@@ -8,7 +8,7 @@
 #include "tests/support/compare.h"
 #include "tests/support/machines.h"
 
-namespace tessera {
+namespace tessera::test {
 namespace {
 
 const Evidence kEvidence{
@@ -233,4 +233,4 @@ const std::function<void()>& evidence(const std::string& axis, const std::string
   return of.at(axis).at(value);
 }
 
-}  // namespace tessera
+}  // namespace tessera::test

@@ -5,7 +5,7 @@
 #include <map>
 #include <string>
 
-namespace tessera {
+namespace tessera::test {
 
 /// By axis, by value.
 using Evidence = std::map<std::string, std::map<std::string, std::function<void()>>>;
@@ -17,4 +17,4 @@ const std::function<void()>& evidence(const std::string& axis, const std::string
 /// Of the axes that raster and later stages read; evidence.cpp has the others.
 const Evidence& rasterEvidence();
 
-}  // namespace tessera
+}  // namespace tessera::test

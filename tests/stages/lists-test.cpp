@@ -15,6 +15,7 @@
 #include "tests/support/machines.h"
 
 using namespace tessera;
+using namespace tessera::test;
 
 namespace {
 

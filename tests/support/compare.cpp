@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <bit>
 
-namespace tessera {
+namespace tessera::test {
 namespace {
 
 std::string pixelText(const Framebuffer& frame, std::size_t k) {
@@ -67,4 +67,4 @@ std::string difference(const std::vector<StageOutput>& got, const std::vector<St
   return "";
 }
 
-}  // namespace tessera
+}  // namespace tessera::test

@@ -9,7 +9,7 @@
 
 #include "host/oracle/oracle-image.h"
 
-namespace tessera {
+namespace tessera::test {
 
 /// "" where every bit that both hold is equal; else how many pixels differ, and what the first one holds.
 std::string difference(const Framebuffer& got, const Framebuffer& expected);
@@ -20,4 +20,4 @@ std::string difference(const Frame& got, const oracle::Result& expected);
 /// Of stage outputs: "" or the first stage, element and word that differ.
 std::string difference(const std::vector<StageOutput>& got, const std::vector<StageOutput>& expected);
 
-}  // namespace tessera
+}  // namespace tessera::test

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <set>
 
-namespace tessera {
+namespace tessera::test {
 namespace {
 
 /// A value as the indices of its axis and of itself there; sets of them are in the order of axes.
@@ -105,4 +105,4 @@ std::vector<Variant> covering(const Variant& base, const std::vector<AxisValues>
   return Design(base, axes, strength, accepts).run();
 }
 
-}  // namespace tessera
+}  // namespace tessera::test

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace tessera {
+namespace tessera::test {
 
 /// An axis and those of its values that take part.
 using AxisValues = std::pair<std::string, std::vector<std::string>>;
@@ -19,4 +19,4 @@ using AxisValues = std::pair<std::string, std::vector<std::string>>;
 std::vector<Variant> covering(const Variant& base, const std::vector<AxisValues>& axes, std::size_t strength,
                               const std::function<bool(const Variant&)>& accepts);
 
-}  // namespace tessera
+}  // namespace tessera::test

@@ -5,7 +5,7 @@
 
 #include "host/devices/forwarding-device.h"
 
-namespace tessera {
+namespace tessera::test {
 namespace {
 
 class CutDevice final : public devices::ForwardingDevice {
@@ -30,4 +30,4 @@ std::unique_ptr<Device> makeCutDevice(std::unique_ptr<Device> inner, std::uint64
   return std::make_unique<CutDevice>(std::move(inner), maxBufferBytes, maxLoopIterations);
 }
 
-}  // namespace tessera
+}  // namespace tessera::test

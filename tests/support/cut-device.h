@@ -5,11 +5,11 @@
 
 #include <memory>
 
-namespace tessera {
+namespace tessera::test {
 
 /// `inner` with smaller limits (0: as they are). It refuses a buffer beyond its limit, as a real device of that size
 /// would.
 std::unique_ptr<Device> makeCutDevice(std::unique_ptr<Device> inner, std::uint64_t maxBufferBytes,
                                       std::uint32_t maxLoopIterations = 0);
 
-}  // namespace tessera
+}  // namespace tessera::test

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <map>
 
-namespace tessera {
+namespace tessera::test {
 
 Machine::Machine(std::string name, std::string route, std::unique_ptr<Device> device, KernelCache::Options options)
     : name_(std::move(name)),
@@ -69,4 +69,4 @@ Machine* machineAt(const std::string& place, const std::string& route) {
   return &machines.try_emplace(place, place, route, std::move(device), options).first->second;
 }
 
-}  // namespace tessera
+}  // namespace tessera::test

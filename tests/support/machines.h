@@ -11,7 +11,7 @@
 
 #include "host/axes/routes.h"
 
-namespace tessera {
+namespace tessera::test {
 
 struct Cpu {
   static constexpr const char* kName = "cpu";
@@ -67,29 +67,29 @@ Machine* machineAt() {
   return machineAt(Place::kName, Place::kRoute);
 }
 
-}  // namespace tessera
+}  // namespace tessera::test
 
 /// PLACE_TEST_CASE(title, tags) { ... `machine` ... }: a test case on each machine.
-#define PLACE_TEST_CASE_AT(run, title, tags, ...)                     \
-  static void run(tessera::Machine& machine);                         \
-  TEMPLATE_TEST_CASE(title, tags, __VA_ARGS__) {                      \
-    if (tessera::Machine* machine = tessera::machineAt<TestType>()) { \
-      INFO("on " << machine->name());                                 \
-      run(*machine);                                                  \
-    }                                                                 \
-  }                                                                   \
-  static void run(tessera::Machine& machine)
-#define PLACE_TEST_CASE(title, tags)                                                                     \
-  PLACE_TEST_CASE_AT(INTERNAL_CATCH_UNIQUE_NAME(runAt), title, tags, tessera::Cpu, tessera::VulkanSpirv, \
-                     tessera::VulkanGlsl)
+#define PLACE_TEST_CASE_AT(run, title, tags, ...)                                 \
+  static void run(tessera::test::Machine& machine);                               \
+  TEMPLATE_TEST_CASE(title, tags, __VA_ARGS__) {                                  \
+    if (tessera::test::Machine* machine = tessera::test::machineAt<TestType>()) { \
+      INFO("on " << machine->name());                                             \
+      run(*machine);                                                              \
+    }                                                                             \
+  }                                                                               \
+  static void run(tessera::test::Machine& machine)
+#define PLACE_TEST_CASE(title, tags)                                                                                 \
+  PLACE_TEST_CASE_AT(INTERNAL_CATCH_UNIQUE_NAME(runAt), title, tags, tessera::test::Cpu, tessera::test::VulkanSpirv, \
+                     tessera::test::VulkanGlsl)
 /// The same, and once more with bounds checks in the CPU's kernels.
-#define CHECKED_PLACE_TEST_CASE(title, tags)                                                            \
-  PLACE_TEST_CASE_AT(INTERNAL_CATCH_UNIQUE_NAME(runAt), title, tags, tessera::Cpu, tessera::CheckedCpu, \
-                     tessera::VulkanSpirv, tessera::VulkanGlsl)
+#define CHECKED_PLACE_TEST_CASE(title, tags)                                                                        \
+  PLACE_TEST_CASE_AT(INTERNAL_CATCH_UNIQUE_NAME(runAt), title, tags, tessera::test::Cpu, tessera::test::CheckedCpu, \
+                     tessera::test::VulkanSpirv, tessera::test::VulkanGlsl)
 /// The same as these two, and on SwiftShader: tens of times slower than the CPU device, so for what is small.
-#define PLACE_AND_SWIFTSHADER_TEST_CASE(title, tags)                                                     \
-  PLACE_TEST_CASE_AT(INTERNAL_CATCH_UNIQUE_NAME(runAt), title, tags, tessera::Cpu, tessera::VulkanSpirv, \
-                     tessera::VulkanGlsl, tessera::SwiftShader)
-#define CHECKED_PLACE_AND_SWIFTSHADER_TEST_CASE(title, tags)                                            \
-  PLACE_TEST_CASE_AT(INTERNAL_CATCH_UNIQUE_NAME(runAt), title, tags, tessera::Cpu, tessera::CheckedCpu, \
-                     tessera::VulkanSpirv, tessera::VulkanGlsl, tessera::SwiftShader)
+#define PLACE_AND_SWIFTSHADER_TEST_CASE(title, tags)                                                                 \
+  PLACE_TEST_CASE_AT(INTERNAL_CATCH_UNIQUE_NAME(runAt), title, tags, tessera::test::Cpu, tessera::test::VulkanSpirv, \
+                     tessera::test::VulkanGlsl, tessera::test::SwiftShader)
+#define CHECKED_PLACE_AND_SWIFTSHADER_TEST_CASE(title, tags)                                                        \
+  PLACE_TEST_CASE_AT(INTERNAL_CATCH_UNIQUE_NAME(runAt), title, tags, tessera::test::Cpu, tessera::test::CheckedCpu, \
+                     tessera::test::VulkanSpirv, tessera::test::VulkanGlsl, tessera::test::SwiftShader)

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-namespace tessera {
+namespace tessera::test {
 
 std::string cgalMesh(const std::string& name) {
   namespace fs = std::filesystem;
@@ -24,4 +24,4 @@ std::string cgalMesh(const std::string& name) {
   return mesh.string();
 }
 
-}  // namespace tessera
+}  // namespace tessera::test

@@ -3,10 +3,10 @@
 
 #include <string>
 
-namespace tessera {
+namespace tessera::test {
 
 /// Path of one of the OFF files of libcgal-demo, unpacked into the build tree once. The test fails where the package is
 /// missing.
 std::string cgalMesh(const std::string& name);
 
-}  // namespace tessera
+}  // namespace tessera::test

@@ -7,7 +7,7 @@
 
 #include "datasets/random.h"
 
-namespace tessera {
+namespace tessera::test {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -227,4 +227,4 @@ Variant randomImage(std::uint64_t seed) {
   return image;
 }
 
-}  // namespace tessera
+}  // namespace tessera::test

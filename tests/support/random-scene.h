@@ -6,7 +6,7 @@
 
 #include <cstdint>
 
-namespace tessera {
+namespace tessera::test {
 
 /// 1 to 300 triangles on a raster of 1 x 1 to 256 x 256 pixels. A scene draws first, for itself: its size (a power of
 /// two in half of them, so that positions arrive on the screen unrounded); how w varies (1 everywhere; powers of two;
@@ -24,4 +24,4 @@ inline constexpr std::uint64_t kImages = 12;
 /// The image axes of a scene, kImages settings in turn: few, since each has raster kernels of its own.
 Variant randomImage(std::uint64_t seed);
 
-}  // namespace tessera
+}  // namespace tessera::test

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace tessera {
+namespace tessera::test {
 
 /// The floats of the scene's stream of one float a vertex, to change; the stream is made where there is none.
 inline std::vector<float>& attributeOf(Scene& scene) {
@@ -61,4 +61,4 @@ inline std::vector<float> valuesOf(const Framebuffer& frame) {
   return frame.channels.empty() ? std::vector<float>() : frame.channels.front().floats();
 }
 
-}  // namespace tessera
+}  // namespace tessera::test

@@ -7,7 +7,7 @@
 
 #include "tests/support/covering.h"
 
-namespace tessera {
+namespace tessera::test {
 namespace {
 
 /// What the planner makes of a variant on an empty scene; "" where it refuses it.
@@ -82,4 +82,4 @@ std::vector<Variant> eachAlone(const Variant& base, const DeviceInfo& device) {
   return all;
 }
 
-}  // namespace tessera
+}  // namespace tessera::test

@@ -9,7 +9,7 @@
 
 #include "host/axes/settings.h"  // joined()
 
-namespace tessera {
+namespace tessera::test {
 
 /// Names of the values of an axis that may change no bit. Of an axis of integers, a few from its least one on; "" is
 /// the plan's choice.
@@ -29,4 +29,4 @@ std::vector<Variant> rasterPaths(const DeviceInfo& device);
 /// On top of `base`: the plan's choice, then each lossless value of each axis alone.
 std::vector<Variant> eachAlone(const Variant& base, const DeviceInfo& device);
 
-}  // namespace tessera
+}  // namespace tessera::test

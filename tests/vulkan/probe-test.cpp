@@ -14,6 +14,7 @@
 #include "tests/support/machines.h"
 
 using namespace tessera;
+using namespace tessera::test;
 namespace fs = std::filesystem;
 
 namespace {
