@@ -137,7 +137,7 @@ TEST_CASE("A host that has the manifest alone runs the WGSL with the bits of the
     const support::ProcessResult ran = support::runProcess({TESSERA_RUN_WGSL, (desk.path() / "out").string()});
     INFO(ran.output);
     REQUIRE(ran.ok());
-    const Framebuffer oracle = oracle::render(loadInput(input, 100, 75), imageAxesOf(variant)).image;
+    const Framebuffer oracle = oracle::render(loadInput(input, 100, 75), oracle::imageAxesOf(variant)).image;
     CHECK(wordsOf<std::uint32_t>(desk.read("out/ids.out")) == oracle.ids);
     const auto depth = wordsOf<float>(desk.read("out/depth.out"));
     REQUIRE(depth.size() == oracle.depth.size());

@@ -5,7 +5,7 @@ here=$1 source=$2
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 mkdir "$work/experiments"
-cp -r "$source/host" "$source/datasets" "$source/slang" "$work"
+cp -r "$source/host" "$source/datasets" "$source/slang" "$source/bench" "$work"
 cp -r "$source/experiments/harness" "$work/experiments"
 python3 "$here/rooms-test.py" "$work"
 broken() { # file, line that it gets, what the test has to say
@@ -27,6 +27,12 @@ broken host/include/tessera/error.h '#include <tessera/scene.h>
 #include <nlohmann/json.hpp>' 'host/include/tessera/error.h: a public header, and includes nlohmann'
 broken host/include/tessera/framebuffer.h '#include <tessera/rasterizer.h>' 'a circle of includes: '
 broken datasets/text.h '#include "datasets/no-such.h"' 'datasets/text.h: includes datasets/no-such.h, which is not there'
+broken host/support/text.h 'namespace tessera { int one(); }' 'host/support/text.h: declares into tessera, and tessera::support would be right'
+broken host/plan/bins.h 'namespace tessera { namespace frame { int one(); } }' 'host/plan/bins.h: declares into tessera::frame, and tessera::plan would be right'
+broken host/include/tessera/error.h 'namespace tessera::support { int one(); }' 'host/include/tessera/error.h: declares into tessera::support, and tessera would be right'
+broken host/frame/tally.cpp 'namespace tessera::plan { int one() { return 1; } }' 'host/frame/tally.cpp: declares into tessera::plan, and tessera::frame would be right'
+broken datasets/text.h 'int one();' 'datasets/text.h: declares into no namespace, and tessera::datasets would be right'
+broken bench/suite.h 'namespace tessera { int one(); }' 'bench/suite.h: declares into tessera, and tessera::bench would be right'
 broken slang/math/exact-math.slang 'import layout;' 'slang-math imports layout, which reads slang/records/layout.slang of slang-records'
 broken slang/machine/workgroup.slang '__exported import fixed_point;' 'slang-machine imports fixed_point, which reads slang/math/fixed-point.slang'
 broken slang/geometry/coverage.slang 'import variant;' 'slang-geometry imports variant, which reads slang/axes/'

@@ -1,5 +1,5 @@
 """Reads the includes of the library, the harness and the command, and the imports of the kernels, and says which of them
-layers.txt does not allow.
+layers.txt does not allow. Reads what their files declare, and says what stands in another namespace than its room's.
 
 usage: rooms-test.py SOURCE [LAYERS]
 """
@@ -11,6 +11,14 @@ import sys
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<(tessera/[^>]+)>)', re.MULTILINE)
 # A public header is read by programs that have none of these.
 FOREIGN = re.compile(r'^\s*#\s*include\s*[<"](vulkan|OpenMesh|OpenImageIO|Imath|OpenEXR|nlohmann|CLI|fmt|tbb|toml\+\+)[/.]', re.MULTILINE)
+
+# What is no declaration: comments, texts and the preprocessor's lines.
+NO_CODE = re.compile(r'//[^\n]*|/\*.*?\*/|^[ \t]*#(?:[^\n]*\\\n)*[^\n]*|R"(\w*)\(.*?\)\1"|"(?:[^"\\\n]|\\.)*"|\'(?:[^\'\\\n]|\\.)+\'', re.MULTILINE | re.DOTALL)
+SCOPE = re.compile(r'\bnamespace\s+([\w:]+)?\s*\{|\{|\}|[^\s{}]')
+# Folders that are no rooms of layers.txt, and have a namespace all the same.
+ASIDE = {"bench": "bench", "tests": "test"}
+# The oracle has words of its own for what others name, too (`render`, `transform`), so its public header keeps to its room's namespace.
+OWN_PUBLIC = {"host/include/tessera/oracle.h": "tessera::oracle"}
 
 IMPORT = re.compile(r'^\s*(?:public\s+|__exported\s+)*(?:import|__include)\s+"?([\w./-]+)"?\s*;', re.MULTILINE)
 PART = re.compile(r'^\s*implementing\s+(\w+)\s*;', re.MULTILINE)
@@ -94,6 +102,43 @@ def read_cpp(source, rooms, faults):
     return includes
 
 
+def namespaces(text):
+    """The namespaces that a file opens, by their full names, and "" where something stands in none."""
+    opened, inside = set(), []
+    for match in SCOPE.finditer(NO_CODE.sub(" ", text)):
+        word = match.group(0)
+        if word.endswith("{"):
+            inside.append(match.group(1) or "")  # "" for a namespace without a name, a class or a function
+            if match.group(1):
+                opened.add("::".join(part for part in inside if part))
+        elif word == "}" and inside:
+            inside.pop()
+        elif not inside:
+            opened.add("")
+    return opened
+
+
+def read_names(source, rooms, faults):
+    """Each header declares into its room's namespace alone; what implements a public header opens `tessera`, too."""
+    count = 0
+    for top in ("host", "datasets", "experiments/harness", *ASIDE):
+        for file in sorted((source / top).rglob("*")):
+            path = file.relative_to(source).as_posix()
+            if file.suffix not in (".h", ".cpp") or "third-party" in path or "/new/" in path:
+                continue
+            room = ASIDE.get(top) or room_of(path, rooms)
+            own = OWN_PUBLIC.get(path, "tessera") if room == "public" else f"tessera::{room}"
+            count += 1
+            for name in sorted(namespaces(file.read_text())):
+                if name == own or room != "public" and name.startswith(own + "::"):
+                    continue
+                if file.suffix == ".cpp" and name in ("", "tessera"):
+                    continue
+                faults.append(f"{path}: declares into {name or 'no namespace'}, and {own} would be right")
+    if count < 100:
+        faults.append(f"of only {count} files the namespaces were read")
+
+
 def read_slang(source, rooms, faults):
     """File of the kernels to the files that it imports."""
     texts = {file.relative_to(source).as_posix(): re.sub(r"//[^\n]*", "", file.read_text()) for file in sorted((source / "slang").rglob("*.slang"))}
@@ -154,6 +199,7 @@ def main():
         way = circle(read(source, rooms, faults))
         if way:
             faults.append(f"a circle of {what}: " + " -> ".join(way))
+    read_names(source, rooms, faults)
     for fault in faults:
         print(fault)
     return 1 if faults else 0
