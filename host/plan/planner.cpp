@@ -62,7 +62,7 @@ class Planner {
     const bool loose = !commit.empty() && !commitTraits(commit).wantsBins;
     bins_ = binsOf_(loose ? choice_.take("binning", {"none", "exact", "queue"})
                           : choice_.take("binning", {"exact", "queue", "none"}));
-    choice_.take("size-class", sizeClasses());
+    choice_.take("size-class", {"off", "shape"});
     std::uint64_t largest = plan::kBlock;
     while (largest > 8 && tileBytes(largest) > device_.maxGroupBytes) largest /= 2;
     const double tile = std::stoi(choice_.take("tile", {std::to_string(largest)}));
@@ -102,10 +102,6 @@ class Planner {
 
   bool oneThreadGroups() const { return axes::routeNamed(choice_.resolved().get("route")).oneThreadGroups; }
 
-  /// Measured on CPUs, where shapes are ahead on every scene (experiments/lanes). A GPU may want either.
-  std::vector<std::string> sizeClasses() const {
-    return oneThreadGroups() ? std::vector<std::string>{"shape", "off"} : std::vector<std::string>{"off", "shape"};
-  }
   bool byShape() const { return choice_.resolved().is("size-class", "shape"); }
 
   /// Group memory of a tile that its group owns, at most: depth and id of each pixel; for size-class=shape a round of
