@@ -186,7 +186,7 @@ const Evidence kEvidence{
        [] {
          // The cells on the diagonals have two pieces a layer, so a bound comes only with the next round of 16 pieces.
          CHECK(count(layers("size-class=shape hidden=cell order=nearest-first"), "covered") < 2 * 64 * 64);
-         CHECK(difference(layers("size-class=shape hidden=cell order=nearest-first"), reference::render(backToFront())) == "");
+         CHECK(difference(layers("size-class=shape hidden=cell order=nearest-first"), oracle::render(backToFront())) == "");
        }}}},
     {"order",
      // The layers come from back to front, so as they are binned none hides what follows.

@@ -10,7 +10,9 @@
 #include "tests/support/compare.h"
 #include "tests/support/machines.h"
 
-namespace tessera {
+using namespace tessera;
+using namespace tessera::test;
+
 namespace {
 
 constexpr std::uint32_t kSize = 192;  // 3 x 3 tiles of 64 pixels
@@ -114,7 +116,7 @@ CHECKED_PLACE_TEST_CASE("Shapes at all places give the oracle's bits", "") {
       if (machine.info().correctnessOnly && i % 3 != index % 3) continue;  // a software driver is slow
       INFO("scene " << index << ", " << variants[i].text());
       CHECK(difference(machine.render(scene, variants[i]).image,
-                       reference::render(scene, imageAxesOf(variants[i])).image) == "");
+                       oracle::render(scene, oracle::imageAxesOf(variants[i])).image) == "");
     }
     ++index;
   }
@@ -126,7 +128,7 @@ TEST_CASE("What hides and in which order changes counters and no bit") {
   for (int k = 0; k < 400; ++k)
     addSliver(scene, random, {between(random, 0, kSize), between(random, 0, kSize)}, between(random, 0, 6.3f), 80, 60);
   Machine& machine = *machineAt<Cpu>();
-  const reference::Result right = reference::render(scene);
+  const oracle::Result right = oracle::render(scene);
   std::vector<std::uint64_t> covered;
   for (const char* const settings : {"hidden=off order=as-binned", "hidden=tile order=as-binned", "hidden=cell order=as-binned",
                                      "hidden=cell order=nearest-first"}) {
@@ -141,4 +143,3 @@ TEST_CASE("What hides and in which order changes counters and no bit") {
   CHECK(covered[3] < covered[2]);
 }
 
-}  // namespace tessera
