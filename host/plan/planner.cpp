@@ -81,9 +81,10 @@ class Planner {
     const CommitTraits& traits = commitTraits(commit);
     const std::uint64_t groupMemory = tileBytes(choice_.resolved().number("tile"));
     if (traits.writesTiles && groupMemory > device_.maxGroupBytes)
-      failUnsupported(fmt::format("tile={}: {} takes {} bytes of group memory, {} has {}; set a smaller tile",
+      failUnsupported(fmt::format("tile={}: {} takes {} bytes of group memory, {} has {}; set {}",
                                   choice_.resolved().get("tile"), commit, groupMemory, device_.name,
-                                  device_.maxGroupBytes));
+                                  device_.maxGroupBytes,
+                                  byShape() && tileBytes(8) > device_.maxGroupBytes ? "size-class=off" : "a smaller tile"));
     if (scene_.triangles.size() > traits.mostTriangles)
       failUsage(fmt::format(
           "commit={}: {:.0f} bits tell {} triangles apart, the scene has {}; set "
@@ -107,7 +108,7 @@ class Planner {
   /// Group memory of a tile that its group owns, at most: depth and id of each pixel; for size-class=shape a round of
   /// pieces and a list of samples, and the bounds of cells; for order=nearest-first the lists that are sorted.
   std::uint64_t tileBytes(std::uint64_t tile) const {
-    const std::uint64_t round = 64 * 4 * (38 + std::max<std::uint64_t>(2 * tile, 24)) + 1024;
+    const std::uint64_t round = 64 * 4 * (38 + std::max<std::uint64_t>(tile, 24)) + 1024;
     const bool sorts = asked_.is("order", "nearest-first") || (byShape() && oneThreadGroups());
     return tile * tile * 8 + (byShape() ? round : 0) + (sorts ? 7424 : 0);
   }

@@ -132,8 +132,11 @@ inline Floats smaller(Floats a, Floats b) { return a.v < b.v ? a.v : b.v; }
 inline Floats larger(Floats a, Floats b) { return a.v > b.v ? a.v : b.v; }
 inline Floats toFloats(Ints a) { return __builtin_convertvector(a.v, FloatVector); }
 inline Ints ceiling(Floats a) {
-  const IntVector towardsZero = __builtin_convertvector(a.v, IntVector);
-  return towardsZero - (__builtin_convertvector(towardsZero, FloatVector) < a.v);  // a comparison that holds is -1
+  // Where `a` does not fit an int, the kernel asks for any int: the clamp makes it one, of a NaN, too.
+  const FloatVector limit = FloatVector{} + 0x1p30f;
+  const FloatVector below = a.v < limit ? a.v : limit, held = below > -limit ? below : -limit;
+  const IntVector towardsZero = __builtin_convertvector(held, IntVector);
+  return towardsZero - (__builtin_convertvector(towardsZero, FloatVector) < held);  // a comparison that holds is -1
 }
 inline Ints bitsOf(Floats a) { return IntVector(a.v); }
 inline Floats fromBits(Ints a) { return FloatVector(a.v); }
@@ -208,6 +211,10 @@ template <typename T> inline Ints permute(const T* p, Ints at) {
   const IntVector a = loadInts(p).v;
 #if TESSERA_MASK_REGISTERS
   return IntVector(_mm512_permutexvar_epi32(__m512i(at.v), __m512i(a)));
+#elif defined(__clang__)
+  IntVector moved;
+  for (int i = 0; i < kWidth; ++i) moved[i] = a[at.v[i] & (kWidth - 1)];
+  return moved;
 #else
   return __builtin_shuffle(a, at.v);
 #endif

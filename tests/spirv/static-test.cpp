@@ -37,6 +37,7 @@ bool neverRuns(const std::string& stage, const Axis& axis, const AxisValue& valu
   if (value.needs.oneThreadGroups && route != Route::kCpp) return true;
   if (axis.name == "shade") return value.name == "none" || (stage == "payload" && value.name == "smooth");
   if (axis.name == "binning") return value.name == "none" || (stage == "bin-insert" && value.name == "aabb-scan");
+  if (axis.name == "size-class") return stage == "raster-items" && value.name == "shape";
   if (axis.name != "commit") return false;
   return (stage == "raster-items" && commitTraits(value.name).writesTiles) ||
          (stage == "resolve" && !commitTraits(value.name).resolves) ||
