@@ -68,19 +68,17 @@ union FloatHalves {
 struct Mask {
   __mmask16 m;
 };
-inline Mask maskOf(IntVector a) { return {_mm512_movepi32_mask(__m512i(a))}; }
 inline Mask operator&(Mask a, Mask b) { return {__mmask16(a.m & b.m)}; }
 inline Mask operator|(Mask a, Mask b) { return {__mmask16(a.m | b.m)}; }
 inline Mask operator!(Mask a) { return {__mmask16(~a.m)}; }
 inline uint32_t maskBits(Mask a) { return a.m; }
-inline Mask maskFromBits(uint32_t bits) { return {__mmask16(bits)}; }
 inline Mask operator<(Ints a, Ints b) { return {_mm512_cmplt_epi32_mask(__m512i(a.v), __m512i(b.v))}; }
 inline Mask operator<=(Ints a, Ints b) { return {_mm512_cmple_epi32_mask(__m512i(a.v), __m512i(b.v))}; }
 inline Mask operator==(Ints a, Ints b) { return {_mm512_cmpeq_epi32_mask(__m512i(a.v), __m512i(b.v))}; }
 inline Mask operator<(Floats a, Floats b) { return {_mm512_cmp_ps_mask(a.v, b.v, _CMP_LT_OQ)}; }
 inline Mask operator<=(Floats a, Floats b) { return {_mm512_cmp_ps_mask(a.v, b.v, _CMP_LE_OQ)}; }
 inline Mask operator==(Floats a, Floats b) { return {_mm512_cmp_ps_mask(a.v, b.v, _CMP_EQ_OQ)}; }
-inline Mask negative(Ints a) { return maskOf(a.v); }
+inline Mask negative(Ints a) { return {_mm512_movepi32_mask(__m512i(a.v))}; }
 inline Ints select(Mask m, Ints a, Ints b) {
   return IntVector(_mm512_mask_blend_epi32(m.m, __m512i(b.v), __m512i(a.v)));
 }
@@ -105,11 +103,6 @@ inline uint32_t maskBits(Mask a) {
   uint32_t bits = 0;
   for (int i = 0; i < kWidth; ++i) bits |= uint32_t(a.m[i] & 1) << i;
   return bits;
-}
-inline Mask maskFromBits(uint32_t bits) {
-  Mask mask;
-  for (int i = 0; i < kWidth; ++i) mask.m[i] = -int32_t(bits >> i & 1);
-  return mask;
 }
 #endif
 
